@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: MIT
+# One room of the house is one static library: its sources are those of its folder.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+add_library(plumbline_options INTERFACE)
+target_compile_options(plumbline_options INTERFACE -Wall -Wextra -Wconversion -Werror)
+# The same recording gives the same result on every machine: no fused multiply-add by chance.
+target_compile_options(plumbline_options INTERFACE -ffp-contract=off)
+target_include_directories(plumbline_options INTERFACE ${PROJECT_SOURCE_DIR})
+if(PLUMBLINE_SANITIZE)
+  target_compile_options(plumbline_options INTERFACE -fsanitize=address,undefined
+                                                    -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(plumbline_options INTERFACE -fsanitize=address,undefined)
+endif()
+
+# plumbline_module(NAME [LINK library...]) makes plumbline::NAME from the folder's *.cpp files.
+function(plumbline_module NAME)
+  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  file(GLOB SOURCES CONFIGURE_DEPENDS *.cpp)
+  if(SOURCES)
+    add_library(plumbline_${NAME} STATIC ${SOURCES})
+    target_link_libraries(plumbline_${NAME} PUBLIC plumbline_options ${ARG_LINK})
+  else()
+    add_library(plumbline_${NAME} INTERFACE)
+    target_link_libraries(plumbline_${NAME} INTERFACE plumbline_options ${ARG_LINK})
+  endif()
+  add_library(plumbline::${NAME} ALIAS plumbline_${NAME})
+endfunction()
+
+# plumbline_test(NAME [LINK library...]) makes one GoogleTest program from the folder's *_test.cpp.
+function(plumbline_test NAME)
+  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  file(GLOB SOURCES CONFIGURE_DEPENDS *.cpp)
+  if(NOT SOURCES)
+    return()
+  endif()
+  add_executable(${NAME}_test ${SOURCES})
+  target_link_libraries(${NAME}_test PRIVATE plumbline_options ${ARG_LINK} GTest::gtest GTest::gmock
+                                             GTest::gtest_main)
+  gtest_discover_tests(${NAME}_test DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 900)
+endfunction()

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <numbers>
+
+namespace plumbline {
+
+inline constexpr double kRadPerDeg = std::numbers::pi / 180.0;
+inline constexpr double kDegPerRad = 180.0 / std::numbers::pi;
+
+}  // namespace plumbline

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "edge/base/result.h"
+#include "edge/orient/problem.h"
+#include "edge/orient/solution.h"
+
+namespace plumbline::orient {
+
+struct Options {
+  // Prior sigma of each tilt (omega, phi) about the vertical: 2 degrees suit a stabilised gimbal,
+  // 10 a fixed mount.
+  double tilt_sigma_deg = 2.0;
+  int max_iterations = 200;
+  double rejection_sigma = 3.7;
+  // Thresholds beyond which a quantity is called unobservable.
+  double max_azimuth_sigma_deg = 5.0;
+  double max_tilt_sigma_deg = 5.0;
+  double max_focal_length_sigma = 0.03;
+  double max_scale_sigma = 0.03;
+  double max_height_sigma = 0.05;  // of the flying height
+  double max_position_sigma_m = 10.0;
+  double min_variance_reduction = 0.20;  // of a prior that alone carries a quantity
+};
+
+// One robust adjustment of everything known, each with its sigma. Needs no starting values.
+// Pure: the same problem gives the same bits. Fails with a sentence where there is no solution.
+Result<Solution> adjust(const Problem& problem, const Options& options);
+
+}  // namespace plumbline::orient

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "edge/geometry/camera.h"
+
+namespace plumbline::orient {
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+struct OrientedPhoto {
+  bool oriented = false;  // false: nothing below is known
+  geometry::Pose pose;
+  // Of (centre east, north, up in m; rotation increment east, north, up in rad, applied on the left:
+  // R <- exp([delta]x) R).
+  Matrix6d covariance = Matrix6d::Zero();
+  Eigen::Vector3d sigma_omega_phi_kappa_rad = Eigen::Vector3d::Zero();
+  // Antenna as measured minus as adjusted; zero size where there is no station.
+  std::optional<Eigen::Vector3d> gnss_residual_m;
+  bool station_rejected = false;
+};
+
+struct MeasuredPoint {
+  bool measured = false;  // false: fewer than two good rays, nothing below is known
+  Eigen::Vector3d in_enu_m = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();        // in the datum of the adjustment
+  // About the points' own best-fit frame (position, azimuth, tilt and scale of the whole removed):
+  // what remains when only shape matters.
+  Eigen::Matrix3d local_covariance_m2 = Eigen::Matrix3d::Zero();
+  int rays = 0;
+  double residual_rms_px = 0;
+};
+
+struct ObservationResidual {
+  Eigen::Vector2d residual_px = Eigen::Vector2d::Zero();  // measured minus computed
+  double sigma_px = 0;                                    // as used at the end
+  bool used = false;
+};
+
+// A quantity that the data do not fix, and what to do about it.
+struct Unobservable {
+  std::string name;      // azimuth, tilt, focal_length, scale, height, position, ...
+  std::string sentence;  // with its figures: what is not known, and what would make it so
+};
+
+// Standard deviations of what is common to the whole. Infinity: not fixed by anything.
+struct CommonSigmas {
+  double azimuth_rad = 0;
+  double tilt_rad = 0;
+  double scale = 0;         // relative
+  double position_m = 0;    // of the points' centroid, largest axis
+  double focal_length = 0;  // relative
+  double height = 0;        // median sigma of point heights over the flying height
+};
+
+struct Summary {
+  bool converged = false;
+  int iterations = 0;
+  double sigma0 = 0;
+  std::map<std::string, double> sigma0_by_group;  // ties, picks, stated, gnss, lengths, control, ...
+  double image_sigma_px = 0;
+  int redundancy = 0;
+  int observations_rejected = 0;
+  double reprojection_rms_px = 0;
+  double flying_height_m = 0;  // median height of the stations above the median ground
+  CommonSigmas common;
+  std::vector<Unobservable> unobservable;
+  std::vector<std::string> warnings;  // sentences
+};
+
+// Covariance between any of the adjusted points. Kept because a distance, an area or a joint test
+// needs more than 3x3 blocks.
+class PointCovariances {
+ public:
+  virtual ~PointCovariances() = default;
+  // 3n x 3n, in the order of `points` (indices of measured points), m2.
+  virtual Eigen::MatrixXd joint(const std::vector<int>& points) const = 0;
+};
+
+struct Solution {
+  geometry::Camera camera;  // as adjusted; `covariance` is the posterior one
+  std::vector<OrientedPhoto> photos;           // as Problem::photos
+  std::vector<MeasuredPoint> points;           // as Problem::point_names
+  std::vector<ObservationResidual> residuals;  // as Problem::observations
+  Summary summary;
+  std::shared_ptr<const PointCovariances> covariances;  // immutable once made
+};
+
+}  // namespace plumbline::orient
