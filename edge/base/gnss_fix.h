@@ -16,7 +16,7 @@ enum class FixQuality { kNone = 0, kSingle = 1, kDifferential = 2, kFixed = 4, k
 // One position epoch of a receiver, as it said it. Nothing here is corrected or guessed: what the
 // receiver did not say is empty.
 struct GnssFix {
-  std::optional<UtcTime> time;                          // absolute, when a date is known
+  std::optional<UtcTime> time;                           // absolute, when a date is known
   std::optional<std::chrono::microseconds> time_of_day;  // UTC, since midnight
   FixQuality quality = FixQuality::kNone;
   std::optional<double> latitude_deg;

@@ -27,10 +27,16 @@ using InteriorVector = Eigen::Matrix<double, kInteriorCount, 1>;
 using InteriorMatrix = Eigen::Matrix<double, kInteriorCount, kInteriorCount>;
 
 // The names of the ten in camera.toml's [covariance] order list.
-inline constexpr std::array<const char*, kInteriorCount> kInteriorNames = {
-    "focal_length_px", "principal_point_u_px", "principal_point_v_px", "affinity", "skew",
-    "radial_1",        "radial_2",             "radial_3",             "tangential_1",
-    "tangential_2"};
+inline constexpr std::array<const char*, kInteriorCount> kInteriorNames = {"focal_length_px",
+                                                                           "principal_point_u_px",
+                                                                           "principal_point_v_px",
+                                                                           "affinity",
+                                                                           "skew",
+                                                                           "radial_1",
+                                                                           "radial_2",
+                                                                           "radial_3",
+                                                                           "tangential_1",
+                                                                           "tangential_2"};
 
 // A prior standard deviation of infinity leaves a parameter free, 0 holds it fixed.
 inline constexpr double kFree = std::numeric_limits<double>::infinity();
@@ -51,7 +57,7 @@ struct Camera {
 // A pixel and its derivatives.
 struct Projection {
   Eigen::Vector2d pixel;
-  Eigen::Matrix<double, 2, 3> by_point;               // d pixel / d point_in_photo
+  Eigen::Matrix<double, 2, 3> by_point;  // d pixel / d point_in_photo
   Eigen::Matrix<double, 2, kInteriorCount> by_interior;
 };
 

@@ -17,8 +17,8 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 struct OrientedPhoto {
   bool oriented = false;  // false: nothing below is known
   geometry::Pose pose;
-  // Of (centre east, north, up in m; rotation increment east, north, up in rad, applied on the left:
-  // R <- exp([delta]x) R).
+  // Of (centre east, north, up in m; rotation increment east, north, up in rad, applied on the
+  // left: R <- exp([delta]x) R).
   Matrix6d covariance = Matrix6d::Zero();
   Eigen::Vector3d sigma_omega_phi_kappa_rad = Eigen::Vector3d::Zero();
   // Antenna as measured minus as adjusted; zero size where there is no station.
@@ -29,7 +29,7 @@ struct OrientedPhoto {
 struct MeasuredPoint {
   bool measured = false;  // false: fewer than two good rays, nothing below is known
   Eigen::Vector3d in_enu_m = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();        // in the datum of the adjustment
+  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  // in the datum of the adjustment
   // About the points' own best-fit frame (position, azimuth, tilt and scale of the whole removed):
   // what remains when only shape matters.
   Eigen::Matrix3d local_covariance_m2 = Eigen::Matrix3d::Zero();
@@ -63,7 +63,8 @@ struct Summary {
   bool converged = false;
   int iterations = 0;
   double sigma0 = 0;
-  std::map<std::string, double> sigma0_by_group;  // ties, picks, stated, gnss, lengths, control, ...
+  std::map<std::string, double>
+      sigma0_by_group;  // ties, picks, stated, gnss, lengths, control, ...
   double image_sigma_px = 0;
   int redundancy = 0;
   int observations_rejected = 0;
@@ -84,7 +85,7 @@ class PointCovariances {
 };
 
 struct Solution {
-  geometry::Camera camera;  // as adjusted; `covariance` is the posterior one
+  geometry::Camera camera;                     // as adjusted; `covariance` is the posterior one
   std::vector<OrientedPhoto> photos;           // as Problem::photos
   std::vector<MeasuredPoint> points;           // as Problem::point_names
   std::vector<ObservationResidual> residuals;  // as Problem::observations

@@ -37,9 +37,9 @@ struct NamedControl {
 };
 
 struct Input {
-  geometry::Camera camera;             // the starting camera, with its prior sigmas
-  std::vector<orient::Photo> photos;   // with what is known of each
-  GreyImageSource images;              // photo i of `photos`, all of the camera's size
+  geometry::Camera camera;            // the starting camera, with its prior sigmas
+  std::vector<orient::Photo> photos;  // with what is known of each
+  GreyImageSource images;             // photo i of `photos`, all of the camera's size
   std::vector<NamedPick> picks;
   std::vector<NamedLength> lengths;
   std::vector<NamedControl> control;
