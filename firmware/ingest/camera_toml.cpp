@@ -197,7 +197,8 @@ class Reader {
     for (const toml::node& node : *order) {
       const auto row = interior_index(node.value_or<std::string>(""));
       if (!row || std::ranges::count(rows, *row) > 0) {
-        fail(&node, quoted(node.value_or<std::string>("")) + " in the order of [covariance] is " +
+        fail(&node, in_quotes(node.value_or<std::string>("")) +
+                        " in the order of [covariance] is " +
                         (row ? "there twice." : "not one of the names of a camera's entries."));
         return {};
       }
@@ -277,7 +278,7 @@ class Reader {
       const std::string_view name = key.str();
       const auto is_this = [name](const Key& k) { return name == k.name; };
       if (known.contains(name) || (with_interior && std::ranges::any_of(kKeys, is_this))) continue;
-      result_.notices.push_back(at_line(name_, node.source().begin.line) + quoted(name) +
+      result_.notices.push_back(at_line(name_, node.source().begin.line) + in_quotes(name) +
                                 " is not known and was ignored.");
     }
   }

@@ -10,7 +10,7 @@ namespace plumbline::ingest {
 namespace {
 
 Error cannot_read(const std::filesystem::path& path, const std::string& why) {
-  return {"Cannot read " + quoted(path.string()) + ": " + why + "."};
+  return {"Cannot read " + in_quotes(path.string()) + ": " + why + "."};
 }
 
 template <typename Bytes>
@@ -46,7 +46,7 @@ Result<std::vector<std::uint8_t>> read_bytes(const std::filesystem::path& path,
   return read_all<std::vector<std::uint8_t>>(path, max_bytes);
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   std::string result = "'";
   return result.append(text).append("'");
 }

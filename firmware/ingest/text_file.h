@@ -23,7 +23,7 @@ Result<std::vector<std::uint8_t>> read_bytes(const std::filesystem::path& path,
                                              std::size_t max_bytes);
 
 // 'text', for sentences.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 // "name:line: " in front of a sentence about a line of a file.
 std::string at_line(const std::string& name, std::size_t line);
