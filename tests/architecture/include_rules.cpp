@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: MIT
+#include "tests/architecture/include_rules.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+#include <regex>
+
+namespace plumbline::architecture {
+
+namespace {
+
+// What each room of edge/ may include beside itself.
+const std::map<std::string_view, std::vector<std::string_view>> kRoomsBelow = {
+    {"base", {}},
+    {"geometry", {"base"}},
+    {"geodesy", {"base"}},
+    {"gnss", {"base", "geodesy"}},
+    {"jpeg", {"base"}},
+    {"image", {"base"}},
+    {"orient", {"base", "geometry"}},
+    {"survey", {"base", "geometry", "geodesy", "image", "orient"}},
+};
+
+struct Place {
+  std::string_view header;               // how the library's headers begin
+  std::vector<std::string_view> places;  // beside tests/
+};
+const std::vector<Place> kLibraryPlaces = {
+    {"opencv2/", {"edge/image/"}},
+    {"GeographicLib/", {"edge/geodesy/"}},
+    {"jpeglib.h", {"edge/jpeg/"}},
+    {"jerror.h", {"edge/jpeg/"}},
+    {"exiv2/", {"firmware/"}},
+    {"toml++/", {"firmware/", "sim/"}},
+    {"nlohmann/", {"firmware/"}},
+    {"spdlog/", {"firmware/"}},
+    {"nettle/", {"firmware/"}},
+    {"CLI/", {"firmware/"}},
+    {"ceres/", {}},
+    {"gtest/", {}},
+    {"gmock/", {}},
+    {"benchmark/", {}},
+};
+
+const std::vector<std::string_view> kImpureHeaders = {
+    "fstream", "filesystem", "iostream", "ctime",   "time.h",   "unistd.h", "fcntl.h",
+    "sys/",    "linux/",     "poll.h",   "termios", "dirent.h", "csignal",  "signal.h"};
+
+// A call: the name, not part of a longer one, then its parenthesis.
+const std::regex kImpureCall(
+    R"((::now|\bfopen|\bgetenv|\bsystem|\bpopen|\brandom_device|\bsleep_for|\bsleep_until|\bstd::time|\bstd::rand|\bsrand)\b)");
+
+std::string_view part(std::string_view path, int index) {
+  for (; index > 0; --index) {
+    const std::size_t slash = path.find('/');
+    if (slash == std::string_view::npos) return {};
+    path = path.substr(slash + 1);
+  }
+  return path.substr(0, path.find('/'));
+}
+
+bool is_seam(std::string_view header) {
+  return part(header, 0) == "drivers" && part(header, 2).empty();
+}
+
+bool plays_simulations(std::string_view path) {
+  return path.starts_with("firmware/devices_in_sim.") ||
+         path.starts_with("firmware/commands/sim_") ||
+         path.starts_with("firmware/commands/replay_");
+}
+
+// Empty, or why a file of edge/ may not include `header`.
+std::string against_edge(std::string_view path, std::string_view header) {
+  if (part(header, 0) != "edge") return "edge includes nothing of the project but edge";
+  const std::string_view from = part(path, 1);
+  const std::string_view to = part(header, 1);
+  const auto below = kRoomsBelow.find(from);
+  if (below == kRoomsBelow.end()) {
+    return "edge/" + std::string(from) + " is new: say in tests/architecture what it may include";
+  }
+  const bool allowed = from == to || std::find(below->second.begin(), below->second.end(), to) !=
+                                         below->second.end();
+  return allowed ? "" : "edge/" + std::string(from) + " may not include edge/" + std::string(to);
+}
+
+std::string against_drivers(std::string_view path, std::string_view header) {
+  if (is_seam(header) || header.starts_with("edge/base/")) return {};
+  const bool own = part(header, 0) == "drivers" && part(header, 1) == part(path, 1);
+  return own ? "" : "drivers include only the seams drivers/*.h, edge/base and their own folder";
+}
+
+std::string against_sim(std::string_view header) {
+  const std::string_view top = part(header, 0);
+  const bool allowed = top == "sim" || top == "edge" || is_seam(header);
+  return allowed ? "" : "sim includes only sim, edge and the seams drivers/*.h";
+}
+
+std::string against_firmware(std::string_view path, std::string_view header) {
+  const std::string_view top = part(header, 0);
+  if (top == "tests") return "nothing but tests includes tests";
+  if (top == "sim" && !plays_simulations(path)) {
+    return "only devices_in_sim and the sim and replay commands include sim";
+  }
+  if (top == "drivers" && !is_seam(header) && !path.starts_with("firmware/devices_on_board.")) {
+    return "only devices_on_board includes what stands behind the seams";
+  }
+  return {};
+}
+
+std::string against_arrows(std::string_view path, std::string_view header) {
+  const std::vector<std::string_view> tops = {"edge/", "drivers/", "sim/", "firmware/", "tests/"};
+  if (!starts_with_any(header, tops)) return "name the header from the repository's root";
+  const std::string_view top = part(path, 0);
+  if (top == "edge") return against_edge(path, header);
+  if (top == "drivers") return against_drivers(path, header);
+  if (top == "sim") return against_sim(header);
+  if (top == "firmware") return against_firmware(path, header);
+  return top == "tests" ? "" : "a source file lies in edge, drivers, sim, firmware or tests";
+}
+
+Violation broken(const SourceFile& file, const Include& include, const std::string& rule) {
+  return {file.path, include.line, "includes " + include.header + ": " + rule};
+}
+
+}  // namespace
+
+std::vector<Include> includes_of(std::string_view text) {
+  static const std::regex pattern(R"(^\s*#\s*include\s*(["<])([^">]+)[">].*)");
+  const std::string code = code_only(text);
+  const std::vector<std::string_view> code_lines = lines_of(code);
+  const std::vector<std::string_view> lines = lines_of(text);
+  std::vector<Include> includes;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::string line{lines[i]};
+    std::smatch match;
+    if (code_lines[i].find('#') == std::string_view::npos) continue;
+    if (!std::regex_match(line, match, pattern)) continue;
+    includes.push_back({match[2], match[1] == "\"", static_cast<int>(i) + 1});
+  }
+  return includes;
+}
+
+std::vector<Violation> wrong_arrows(const SourceFile& file) {
+  std::vector<Violation> violations;
+  for (const Include& include : includes_of(file.text)) {
+    if (!include.quoted) continue;
+    const std::string rule = against_arrows(file.path, include.header);
+    if (!rule.empty()) violations.push_back(broken(file, include, rule));
+  }
+  return violations;
+}
+
+std::vector<Violation> strayed_libraries(const SourceFile& file) {
+  std::vector<Violation> violations;
+  for (const Include& include : includes_of(file.text)) {
+    for (const Place& library : kLibraryPlaces) {
+      const bool at_home =
+          file.path.starts_with("tests/") || starts_with_any(file.path, library.places);
+      if (include.header.starts_with(library.header) && !at_home) {
+        violations.push_back(broken(file, include, "this library is wrapped elsewhere"));
+      }
+    }
+  }
+  return violations;
+}
+
+std::vector<Violation> impure_mathematics(const SourceFile& file) {
+  if (!starts_with_any(file.path, {"edge/", "sim/"})) return {};
+  std::vector<Violation> violations;
+  for (const Include& include : includes_of(file.text)) {
+    if (!include.quoted && starts_with_any(include.header, kImpureHeaders)) {
+      violations.push_back(broken(file, include, "edge and sim open no files and read no clocks"));
+    }
+  }
+  const std::string code = code_only(file.text);
+  const std::vector<std::string_view> lines = lines_of(code);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    std::match_results<std::string_view::const_iterator> match;
+    if (std::regex_search(lines[i].begin(), lines[i].end(), match, kImpureCall)) {
+      violations.push_back(
+          {file.path, static_cast<int>(i) + 1,
+           "uses " + match.str() + ": edge and sim have no files, clocks or chance"});
+    }
+  }
+  return violations;
+}
+
+}  // namespace plumbline::architecture
