@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#include "edge/gnss/log_parser.h"
+
+#include <utility>
+
+namespace plumbline::gnss {
+
+LogParser::LogParser(Sink sink)
+    : sink_(std::move(sink)),
+      nmea_([this](const GnssFix& fix) { hand_on(LogKind::kNmea, fix); }),
+      rtklib_([this](const GnssFix& fix) { hand_on(LogKind::kRtklib, fix); }) {}
+
+void LogParser::feed(std::string_view bytes) {
+  if (kind_ != LogKind::kRtklib) nmea_.feed(bytes);
+  if (kind_ != LogKind::kNmea) rtklib_.feed(bytes);
+}
+
+void LogParser::finish() {
+  if (kind_ != LogKind::kRtklib) nmea_.finish();
+  if (kind_ != LogKind::kNmea) rtklib_.finish();
+}
+
+const Counters& LogParser::counters() const {
+  return kind_ == LogKind::kRtklib ? rtklib_.counters() : nmea_.counters();
+}
+
+bool LogParser::gps_time_assumed() const {
+  return kind_ == LogKind::kRtklib && !rtklib_.time_system_named();
+}
+
+std::string LogParser::reason_for_nothing() const {
+  const Counters& nmea = nmea_.counters();
+  if (nmea.bytes == 0) return "is empty";
+  if (rtklib_.refusal()) return "cannot be used: " + *rtklib_.refusal();
+  if (nmea.sentences > 0) {
+    return "holds NMEA sentences but no GGA, GNS or RMC among them; switch one of these on in the "
+           "receiver";
+  }
+  if (nmea.bad_checksum + nmea.malformed > 0) {
+    return "holds no whole NMEA sentence (" + std::to_string(nmea.bad_checksum) +
+           " with a bad checksum, " + std::to_string(nmea.malformed) +
+           " malformed); check the baud rate with which it was recorded";
+  }
+  return "holds neither NMEA sentences nor RTKLIB solution lines; pass an NMEA log, a .llh or a "
+         ".pos";
+}
+
+void LogParser::hand_on(LogKind from, const GnssFix& fix) {
+  if (kind_ == LogKind::kUnknown) kind_ = from;
+  if (kind_ == from) sink_(fix);
+}
+
+}  // namespace plumbline::gnss
