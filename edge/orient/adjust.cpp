@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "edge/orient/adjust.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "edge/base/units.h"
+#include "edge/orient/align.h"
+#include "edge/orient/blunders.h"
+#include "edge/orient/free_start.h"
+#include "edge/orient/minimise.h"
+#include "edge/orient/solution_of.h"
+#include "edge/orient/validate.h"
+
+namespace plumbline::orient {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// Cauchy scales in sigmas, annealed from crude to sharp.
+constexpr double kCrude[] = {100, 20, 6};
+constexpr double kSharp[] = {6, 2.5};
+// Photos whose largest separation is below this share of the flying height stand on one place.
+constexpr double kLeastBase = 0.005;
+constexpr int kMaxRounds = 12;
+constexpr double kSigmaSettled = 0.002;
+
+class Adjustment {
+ public:
+  Adjustment(const Problem& problem, const Options& options, FreeStart start)
+      : problem_(problem),
+        options_(options),
+        network_(make_network(problem, std::move(start.photo_of_slot))),
+        state_(std::move(start.state)) {
+    terms_.tilt_sigma_rad = options.tilt_sigma_deg * kRadPerDeg;
+  }
+
+  Result<Solution> run() {
+    orient_freely();
+    if (!has_base()) {
+      return Error{
+          "All photos were taken from (nearly) the same place, so no height can be "
+          "measured; photos from different heights, or a side-step, are needed."};
+    }
+    orient_onto_known();
+    return finish();
+  }
+
+ private:
+  void minimise_from(const State& datum, double cauchy_scale) {
+    const Minimum minimum =
+        minimise(network_, state_, datum, terms_, {cauchy_scale, options_.max_iterations});
+    state_ = minimum.state;
+    iterations_ += minimum.iterations;
+    converged_ = minimum.converged;
+  }
+
+  void orient_freely() {
+    terms_.datum = Datum::kFree;
+    terms_.bridle_interior = true;
+    const State start = state_;
+    drop_unprojectable(network_, state_);
+    for (const double scale : kCrude) {
+      minimise_from(start, scale);
+      rescale_by_median(network_, state_);
+    }
+  }
+
+  bool has_base() const {
+    const double height = flying_height(network_, state_);
+    double base = 0;
+    for (const auto& a : state_.poses) {
+      for (const auto& b : state_.poses) base = std::max(base, (a.centre_m - b.centre_m).norm());
+    }
+    return base > kLeastBase * std::abs(height);
+  }
+
+  void orient_onto_known() {
+    terms_.datum = Datum::kKnown;
+    terms_.bridle_interior = false;
+    terms_.station_weights.assign(at(network_.slots()), 1.0);
+    state_ = aligned(network_, state_, terms_);
+    datum_ = state_;
+    for (const double scale : kSharp) {
+      minimise_from(datum_, scale);
+      rescale_by_median(network_, state_);
+      terms_.station_weights = robust_station_weights(network_, state_);
+    }
+    minimise_from(datum_, kSharp[1]);
+    terms_.station_weights.assign(at(network_.slots()), 1.0);
+  }
+
+  // Plain least squares without what was found to be wrong, so that the covariance is honest.
+  Result<Solution> finish() {
+    for (int round = 0;; ++round) {
+      const int changed = reject_rays(network_, state_, options_.rejection_sigma);
+      minimise_from(datum_, 0);
+      const RaysLinear rays = linearise_rays(network_, state_, 0);
+      const auto terms = linearised_terms(network_, state_, datum_, terms_);
+      const auto equations = normal_equations(network_, rays.rays, terms);
+      const auto covariance = NetworkCovariance::of(network_, equations);
+      if (!covariance) {
+        return Error{
+            "The photos and positions given do not determine a solution: too few points "
+            "are seen in two photos or more, or all of them lie in one place."};
+      }
+      const GroupFits fits = group_fits(network_, *covariance, rays.rays, terms);
+      const double sigma_change = rescale_by_variance(network_, fits);
+      const bool station_found = reject_station(terms, *covariance);
+      const bool settled = changed == 0 && sigma_change < kSigmaSettled && !station_found;
+      if (settled || round + 1 == kMaxRounds) {
+        return solution_of({network_, state_, terms_, *covariance, fits, iterations_, converged_},
+                           options_);
+      }
+    }
+  }
+
+  bool reject_station(const std::vector<Term>& terms, const NetworkCovariance& covariance) {
+    const auto believed = station_slots(network_, terms_).size();
+    if (3 * (believed - 1) < 2 * stations_given()) return false;
+    const int slot = suspicious_station(network_, state_, terms_, terms, covariance);
+    if (slot < 0) return false;
+    terms_.station_weights[at(slot)] = 0;
+    return true;
+  }
+
+  std::size_t stations_given() const {
+    std::size_t count = 0;
+    for (int slot = 0; slot < network_.slots(); ++slot) {
+      count += network_.photo(slot).station ? 1U : 0U;
+    }
+    return count;
+  }
+
+  const Problem& problem_;
+  const Options& options_;
+  Network network_;
+  State state_;
+  State datum_;
+  TermOptions terms_;
+  int iterations_ = 0;
+  bool converged_ = false;
+};
+
+}  // namespace
+
+Result<Solution> adjust(const Problem& problem, const Options& options) {
+  if (auto status = validate(problem); !status) return status.error();
+  auto start = free_start(problem);
+  if (!start) return start.error();
+  return Adjustment(problem, options, std::move(*start)).run();
+}
+
+}  // namespace plumbline::orient

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "edge/orient/network.h"
+#include "edge/orient/terms.h"
+
+namespace plumbline::orient {
+
+// Moves a free network onto what is known: stations, control, lengths, headings. A similarity
+// (shift, scale, azimuth) with a small tilt, least squares for each azimuth of a full circle of
+// trials, the best of which wins: stations nearly on one line have several near-best azimuths, and
+// a descent from the wrong side of the circle would stay there. A wrong station among good ones is
+// outweighed (Cauchy). What nothing fixes stays as it is.
+State aligned(const Network& network, const State& free, const TermOptions& options);
+
+}  // namespace plumbline::orient

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "edge/orient/covariance.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
+namespace plumbline::orient {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// Scaled to a unit diagonal first, since metres, radians and k3 differ by many powers of ten.
+std::optional<Eigen::MatrixXd> inverse_of(const Eigen::MatrixXd& reduced) {
+  const Eigen::VectorXd scale = reduced.diagonal().cwiseSqrt().cwiseInverse();
+  if (!scale.allFinite()) return std::nullopt;
+  const Eigen::LLT<Eigen::MatrixXd> factor(scale.asDiagonal() * reduced * scale.asDiagonal());
+  if (factor.info() != Eigen::Success) return std::nullopt;
+  const auto size = reduced.rows();
+  const Eigen::MatrixXd inverse = factor.solve(Eigen::MatrixXd::Identity(size, size));
+  const Eigen::MatrixXd symmetric = 0.5 * (inverse + inverse.transpose());
+  return scale.asDiagonal() * symmetric * scale.asDiagonal();
+}
+
+PointFactor eliminated(const PointBlock& block) {
+  PointFactor factor;
+  factor.own = block.v.inverse();
+  if (!factor.own.allFinite()) return factor;
+  factor.measured = true;
+  factor.columns = block.columns;
+  factor.by_common = -(block.e * factor.own).transpose();
+  return factor;
+}
+
+PointFactor kept(int first_column) {
+  PointFactor factor;
+  factor.measured = true;
+  factor.columns = {first_column, first_column + 1, first_column + 2};
+  factor.by_common = Eigen::Matrix3d::Identity();
+  return factor;
+}
+
+}  // namespace
+
+std::optional<NetworkCovariance> NetworkCovariance::of(const Network& network,
+                                                       const NormalEquations& equations) {
+  NetworkCovariance out;
+  auto inverse = inverse_of(reduced_matrix(equations, 0));
+  if (!inverse) return std::nullopt;
+  out.common_ = std::move(*inverse);
+  for (int i = 0; i < geometry::kInteriorCount; ++i) {
+    if (network.interior_mask[i] != 0) continue;
+    out.common_.row(i).setZero();
+    out.common_.col(i).setZero();
+  }
+  out.points_.resize(at(network.points()));
+  for (int p = 0; p < network.points(); ++p) {
+    const int kept_index = network.layout.kept_of_point[at(p)];
+    if (kept_index >= 0)
+      out.points_[at(p)] = kept(network.layout.kept_point(kept_index));
+    else if (used_rays(network, p) >= 2)
+      out.points_[at(p)] = eliminated(equations.points[at(p)]);
+  }
+  return out;
+}
+
+Eigen::MatrixXd NetworkCovariance::common_block(const std::vector<int>& rows,
+                                                const std::vector<int>& cols) const {
+  return common_(rows, cols);
+}
+
+Eigen::Matrix3d NetworkCovariance::point_covariance(int index) const {
+  const PointFactor& f = point(index);
+  return f.own + f.by_common * common_block(f.columns, f.columns) * f.by_common.transpose();
+}
+
+Eigen::MatrixXd NetworkCovariance::joint(const std::vector<int>& points) const {
+  const auto size = static_cast<Eigen::Index>(3 * points.size());
+  Eigen::MatrixXd covariance(size, size);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const PointFactor& a = point(points[i]);
+    for (std::size_t j = 0; j <= i; ++j) {
+      const PointFactor& b = point(points[j]);
+      Eigen::Matrix3d block =
+          a.by_common * common_block(a.columns, b.columns) * b.by_common.transpose();
+      if (i == j) block += a.own;
+      const auto row = static_cast<Eigen::Index>(3 * i), col = static_cast<Eigen::Index>(3 * j);
+      covariance.block<3, 3>(row, col) = block;
+      covariance.block<3, 3>(col, row) = block.transpose();
+    }
+  }
+  return covariance;
+}
+
+// With dp = A dc + own, the pixel moves by (Jc + Jp A) dc + Jp own.
+Eigen::Matrix2d NetworkCovariance::pixel_covariance(const Network& network, const Ray& ray,
+                                                    const RayLinear& linear) const {
+  const PointFactor& factor = point(ray.point);
+  std::vector<int> columns = factor.columns;
+  Eigen::MatrixXd by_columns = linear.by_point * factor.by_common;
+  const auto size = static_cast<Eigen::Index>(columns.size());
+  by_columns.conservativeResize(2, size + kRayColumns);
+  by_columns.rightCols(kRayColumns) = linear.by_common;
+  for (int i = 0; i < geometry::kInteriorCount; ++i) columns.push_back(i);
+  for (int i = 0; i < Layout::kPose; ++i) columns.push_back(network.layout.photo(ray.slot) + i);
+  return linear.by_point * factor.own * linear.by_point.transpose() +
+         by_columns * common_block(columns, columns) * by_columns.transpose();
+}
+
+}  // namespace plumbline::orient

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "edge/orient/network.h"
+#include "edge/orient/normal_equations.h"
+#include "edge/orient/solution.h"
+
+namespace plumbline::orient {
+
+// The covariance of all unknowns at the end of a plain least-squares adjustment, kept in factors:
+// a point is  dp = by_common * d(columns) + own part,  with the own part independent of everything.
+struct PointFactor {
+  bool measured = false;
+  std::vector<int> columns;
+  Eigen::Matrix<double, 3, Eigen::Dynamic> by_common;
+  Eigen::Matrix3d own = Eigen::Matrix3d::Zero();
+};
+
+class NetworkCovariance final : public PointCovariances {
+ public:
+  // Empty where the reduced matrix is singular to working precision.
+  static std::optional<NetworkCovariance> of(const Network& network,
+                                             const NormalEquations& equations);
+
+  const Eigen::MatrixXd& common() const { return common_; }  // columns x columns
+  const PointFactor& point(int index) const { return points_[static_cast<std::size_t>(index)]; }
+  int points() const { return static_cast<int>(points_.size()); }
+
+  Eigen::Matrix3d point_covariance(int index) const;
+  // by_common of `index` times the common covariance times `right` (columns x k).
+  Eigen::MatrixXd joint(const std::vector<int>& points) const override;
+  // Covariance of the computed pixel of a ray.
+  Eigen::Matrix2d pixel_covariance(const Network& network, const Ray& ray,
+                                   const RayLinear& linear) const;
+
+ private:
+  Eigen::MatrixXd common_block(const std::vector<int>& rows, const std::vector<int>& cols) const;
+
+  Eigen::MatrixXd common_;
+  std::vector<PointFactor> points_;
+};
+
+}  // namespace plumbline::orient

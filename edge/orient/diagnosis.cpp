@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include "edge/orient/diagnosis.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "edge/base/units.h"
+#include "edge/orient/camera_prior.h"
+
+namespace plumbline::orient {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Stations with a white sigma beyond this are no surveying evidence for scale and position.
+constexpr double kPoorStationM = 0.5;
+
+double median(std::vector<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+template <typename... Arguments>
+std::string text(const char* format, Arguments... arguments) {
+  char buffer[512];
+  std::snprintf(buffer, sizeof buffer, format, arguments...);
+  return buffer;
+}
+
+std::string in_degrees(double sigma_rad) { return text("%.2g degrees", sigma_rad * kDegPerRad); }
+
+// The sigma of the common compass, where headings are given: their mean's own prior.
+double heading_sigma(const Network& network) {
+  double smallest = kInfinity;
+  for (int slot = 0; slot < network.slots(); ++slot) {
+    const Photo& photo = network.photo(slot);
+    if (photo.heading) smallest = std::min(smallest, photo.heading->sigma_rad);
+  }
+  return smallest;
+}
+
+// Do the data reduce the variance of what the prior alone carries by too little?
+bool rests_on_prior(double sigma, double prior_sigma, const Options& options) {
+  return std::isfinite(prior_sigma) && prior_sigma > 0 &&
+         sigma * sigma > (1 - options.min_variance_reduction) * prior_sigma * prior_sigma;
+}
+
+void judge_azimuth(const Evidence& e, const CommonSigmas& s, const Options& options,
+                   std::vector<Unobservable>& out) {
+  const char* const advice =
+      "The photo stations lie (nearly) on one line, about which they cannot fix a turn; a "
+      "side-step of 5 to 10 m, a heading, or a control point away from the foot fixes it. Until "
+      "then absolute positions grow worse with distance from the foot of the climb; distances and "
+      "shapes do not.";
+  if (!std::isfinite(s.azimuth_rad)) {
+    out.push_back({"azimuth",
+                   "The azimuth of the result is not known at all: nothing in the input "
+                   "gives a direction. GNSS positions with a side-step, a heading, or "
+                   "two control points fix it."});
+  } else if (s.azimuth_rad > options.max_azimuth_sigma_deg * kRadPerDeg) {
+    out.push_back({"azimuth", "The azimuth of the result is known only to " +
+                                  in_degrees(s.azimuth_rad) + " (sigma). " + advice});
+  } else if (rests_on_prior(s.azimuth_rad, heading_sigma(e.network), options)) {
+    out.push_back({"azimuth", "The azimuth of the result rests on the given heading alone (" +
+                                  in_degrees(s.azimuth_rad) + "). " + advice});
+  }
+}
+
+void judge_tilt(const CommonSigmas& s, const Options& options, std::vector<Unobservable>& out) {
+  if (s.tilt_rad <= options.max_tilt_sigma_deg * kRadPerDeg) return;
+  out.push_back({"tilt", "The level of the result is known only to " + in_degrees(s.tilt_rad) +
+                             " (sigma): heights tilt with it. RTK positions, or three control "
+                             "points, fix it."});
+}
+
+void judge_focal_length(const Evidence& e, const CommonSigmas& s, const Options& options,
+                        std::vector<Unobservable>& out) {
+  const double f = e.state.interior[geometry::kFocalLength];
+  const double prior = prior_sigmas(e.network.problem->camera)[geometry::kFocalLength] / f;
+  if (s.focal_length > options.max_focal_length_sigma) {
+    out.push_back({"focal_length",
+                   text("The focal length is known only to %.2g %% (sigma), and flying height and "
+                        "scale with it. A calibrated camera, a side-step, or a known length fixes "
+                        "it.",
+                        100 * s.focal_length)});
+  } else if (rests_on_prior(s.focal_length, prior, options)) {
+    out.push_back({"focal_length",
+                   text("The photos do not test the focal length: it rests on the calibration "
+                        "given (%.2g %%). A side-step, tilted photos or a known length would "
+                        "check it.",
+                        100 * s.focal_length)});
+  }
+}
+
+void judge_scale(const CommonSigmas& s, const Options& options, std::vector<Unobservable>& out) {
+  if (!std::isfinite(s.scale)) {
+    out.push_back(
+        {"scale", text("Nothing in the input gives the scale: all lengths are in units of 1/%.0f "
+                       "of the height of one photo. One known length (--length A,B,METRES) or "
+                       "GNSS positions fix it.",
+                       100.0)});
+  } else if (s.scale > options.max_scale_sigma) {
+    out.push_back({"scale", text("The scale is known only to %.2g %% (sigma). A known length "
+                                 "(--length A,B,METRES) or RTK positions fix it.",
+                                 100 * s.scale)});
+  }
+}
+
+void judge_position(const Evidence& e, const CommonSigmas& s, const Options& options,
+                    std::vector<Unobservable>& out) {
+  const GnssErrorModel& gnss = e.network.problem->gnss;
+  if (!std::isfinite(s.position_m)) {
+    out.push_back({"position",
+                   "Nothing in the input gives the absolute position: coordinates are "
+                   "relative only. GNSS positions or a control point fix it."});
+  } else if (s.position_m > options.max_position_sigma_m) {
+    out.push_back({"position",
+                   text("The absolute position is known only to %.3g m (sigma): coordinates and "
+                        "heights are relative only. RTK positions of known height reference, or a "
+                        "control point, fix it.",
+                        s.position_m)});
+  } else if (std::max(gnss.offset_sigma_horizontal_m, gnss.offset_sigma_vertical_m) > 0 &&
+             e.network.problem->control.empty()) {
+    out.push_back(
+        {"gnss_offset",
+         text("An error common to all GNSS positions (sigma %.2g m in plan, %.2g m in height) "
+              "cannot be seen by the photos: it shifts all points alike. Differences between "
+              "points are not touched by it; a control point removes it.",
+              gnss.offset_sigma_horizontal_m, gnss.offset_sigma_vertical_m)});
+  }
+}
+
+void judge_height(const CommonSigmas& s, const Options& options, std::vector<Unobservable>& out) {
+  if (s.height <= options.max_height_sigma) return;
+  out.push_back({"height", text("Heights of the points are known only to %.2g %% of the flying "
+                                "height (median sigma): the base is too short or too much in line "
+                                "with the points. Climb further or step aside.",
+                                100 * s.height)});
+}
+
+}  // namespace
+
+double flying_height(const Network& network, const State& state) {
+  std::vector<double> stations, ground;
+  for (const geometry::Pose& pose : state.poses) stations.push_back(pose.centre_m.z());
+  for (int p = 0; p < network.points(); ++p) {
+    if (used_rays(network, p) >= 2) ground.push_back(state.points[at(p)].z());
+  }
+  return median(std::move(stations)) - median(std::move(ground));
+}
+
+CommonSigmas common_sigmas(const Evidence& e, double flying_height_m) {
+  const auto& c = e.frame.common_covariance;
+  const DatumDefect defect = datum_defect(e.network, e.terms);
+  CommonSigmas sigmas;
+  sigmas.position_m = defect.translation ? kInfinity : std::sqrt(c.diagonal().head<3>().maxCoeff());
+  sigmas.azimuth_rad = defect.azimuth ? kInfinity : std::sqrt(c(5, 5));
+  sigmas.scale = defect.scale ? kInfinity : std::sqrt(c(6, 6));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> tilt(c.block<2, 2>(3, 3));
+  sigmas.tilt_rad = std::sqrt(std::max(0.0, tilt.eigenvalues().maxCoeff()));
+  sigmas.focal_length = std::sqrt(e.covariance.common()(0, 0)) / e.state.interior[0];
+  std::vector<double> heights;
+  for (int p = 0; p < e.covariance.points(); ++p) {
+    if (!e.covariance.point(p).measured) continue;
+    heights.push_back(std::sqrt(std::max(0.0, e.frame.local_covariance_m2[at(p)](2, 2))));
+  }
+  sigmas.height = flying_height_m > 0 ? median(std::move(heights)) / flying_height_m : kInfinity;
+  return sigmas;
+}
+
+std::vector<Unobservable> unobservable(const Evidence& evidence, const CommonSigmas& sigmas,
+                                       const Options& options) {
+  std::vector<Unobservable> out;
+  judge_azimuth(evidence, sigmas, options, out);
+  judge_tilt(sigmas, options, out);
+  judge_focal_length(evidence, sigmas, options, out);
+  judge_scale(sigmas, options, out);
+  judge_height(sigmas, options, out);
+  judge_position(evidence, sigmas, options, out);
+  return out;
+}
+
+std::vector<std::string> cautions(const Evidence& e, const CommonSigmas& sigmas) {
+  std::vector<std::string> sentences;
+  std::vector<double> white;
+  for (const int slot : station_slots(e.network, e.terms)) {
+    white.push_back(std::sqrt(e.network.photo(slot).station->covariance_m2.diagonal().maxCoeff()));
+  }
+  const double poor = median(white);
+  const bool other_scale =
+      !e.network.problem->lengths.empty() || e.network.problem->control.size() >= 2;
+  if (poor > kPoorStationM && std::isfinite(sigmas.scale) && !other_scale) {
+    sentences.push_back(
+        text("Scale (%.2g %%), azimuth, level and absolute position (%.2g m) rest only on GNSS "
+             "positions "
+             "of %.2g m sigma; ratios of lengths and the shape of the ground do not.",
+             100 * sigmas.scale, sigmas.position_m, poor));
+  } else if (poor > kPoorStationM && std::isfinite(sigmas.position_m) &&
+             e.network.problem->control.empty()) {
+    sentences.push_back(
+        text("The absolute position (%.2g m) rests only on GNSS positions of %.2g m sigma.",
+             sigmas.position_m, poor));
+  }
+  return sentences;
+}
+
+}  // namespace plumbline::orient

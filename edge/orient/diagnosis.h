@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "edge/orient/adjust.h"
+#include "edge/orient/local_frame_fit.h"
+#include "edge/orient/terms.h"
+
+namespace plumbline::orient {
+
+// What the adjustment knows of itself at its end.
+struct Evidence {
+  const Network& network;
+  const State& state;
+  const TermOptions& terms;
+  const NetworkCovariance& covariance;
+  const LocalFrameFit& frame;
+};
+
+// The median height of the stations above the median height of the measured points.
+double flying_height(const Network& network, const State& state);
+
+CommonSigmas common_sigmas(const Evidence& evidence, double flying_height_m);
+
+// Names what the data do not fix, each with what would.
+std::vector<Unobservable> unobservable(const Evidence& evidence, const CommonSigmas& sigmas,
+                                       const Options& options);
+
+// Sentences on what rests on poor or single evidence without being unobservable.
+std::vector<std::string> cautions(const Evidence& evidence, const CommonSigmas& sigmas);
+
+}  // namespace plumbline::orient

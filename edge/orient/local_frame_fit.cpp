@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+#include "edge/orient/local_frame_fit.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "edge/geometry/rotation.h"
+
+namespace plumbline::orient {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+using Matrix3x7 = Eigen::Matrix<double, 3, 7>;
+using Matrix7 = Eigen::Matrix<double, 7, 7>;
+
+constexpr double kFarWorse = 3;  // times the median sigma
+
+std::vector<int> frame_points(const NetworkCovariance& covariance,
+                              const std::vector<Eigen::Matrix3d>& point_covariances) {
+  std::vector<double> traces;
+  for (int p = 0; p < covariance.points(); ++p) {
+    if (covariance.point(p).measured) traces.push_back(point_covariances[at(p)].trace());
+  }
+  std::vector<int> chosen;
+  if (traces.empty()) return chosen;
+  const auto middle = traces.begin() + static_cast<std::ptrdiff_t>(traces.size() / 2);
+  std::nth_element(traces.begin(), middle, traces.end());
+  const double limit = kFarWorse * kFarWorse * *middle;
+  for (int p = 0; p < covariance.points(); ++p) {
+    if (covariance.point(p).measured && point_covariances[at(p)].trace() <= limit) {
+      chosen.push_back(p);
+    }
+  }
+  return chosen;
+}
+
+// dx = shift + rotation x (x - centroid) + scale (x - centroid).
+Matrix3x7 similarity_design(const Eigen::Vector3d& from_centroid) {
+  Matrix3x7 g;
+  g << Eigen::Matrix3d::Identity(), -geometry::cross_matrix(from_centroid), from_centroid;
+  return g;
+}
+
+}  // namespace
+
+LocalFrameFit fit_local_frame(const Network& network, const State& state,
+                              const NetworkCovariance& covariance,
+                              const std::vector<Eigen::Matrix3d>& point_covariances) {
+  LocalFrameFit fit;
+  fit.local_covariance_m2 = point_covariances;
+  const std::vector<int> chosen = frame_points(covariance, point_covariances);
+  if (chosen.size() < 3) return fit;
+  Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+  for (const int p : chosen) centroid += state.points[at(p)] / static_cast<double>(chosen.size());
+  Matrix7 normal = Matrix7::Zero();
+  Eigen::MatrixXd summed = Eigen::MatrixXd::Zero(7, network.layout.columns());
+  Matrix7 own_sum = Matrix7::Zero();
+  for (const int p : chosen) {
+    const Matrix3x7 g = similarity_design(state.points[at(p)] - centroid);
+    const PointFactor& factor = covariance.point(p);
+    normal += g.transpose() * g;
+    own_sum += g.transpose() * factor.own * g;
+    const Eigen::MatrixXd rows = g.transpose() * factor.by_common;
+    for (std::size_t c = 0; c < factor.columns.size(); ++c) {
+      summed.col(factor.columns[c]) += rows.col(static_cast<Eigen::Index>(c));
+    }
+  }
+  const Eigen::FullPivLU<Matrix7> lu(normal);
+  if (!lu.isInvertible()) return fit;
+  const Matrix7 a = lu.inverse();
+  const Eigen::MatrixXd b = a * summed;  // similarity by columns
+  const Eigen::MatrixXd cb = covariance.common() * b.transpose();
+  fit.common_covariance = b * cb + a * own_sum * a;
+  std::vector<bool> in_frame(point_covariances.size(), false);
+  for (const int p : chosen) in_frame[at(p)] = true;
+  for (int p = 0; p < covariance.points(); ++p) {
+    const PointFactor& factor = covariance.point(p);
+    if (!factor.measured) continue;
+    const Matrix3x7 g = similarity_design(state.points[at(p)] - centroid);
+    Matrix3x7 with_common = factor.by_common * cb(factor.columns, Eigen::all);
+    if (in_frame[at(p)]) with_common += factor.own * g * a;
+    const Eigen::Matrix3d cross = with_common * g.transpose();
+    fit.local_covariance_m2[at(p)] +=
+        g * fit.common_covariance * g.transpose() - cross - cross.transpose();
+  }
+  return fit;
+}
+
+}  // namespace plumbline::orient

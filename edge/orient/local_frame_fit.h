@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "edge/orient/covariance.h"
+#include "edge/orient/network.h"
+
+namespace plumbline::orient {
+
+// The uncertainty of the points split into what they share and what is each one's own. Shared: the
+// seven-parameter similarity that best fits all of them (shift of the centroid in m, rotation
+// about it in rad, relative scale); own: what remains about it.
+struct LocalFrameFit {
+  Eigen::Matrix<double, 7, 7> common_covariance = Eigen::Matrix<double, 7, 7>::Zero();
+  std::vector<Eigen::Matrix3d> local_covariance_m2;  // by point; zero where not measured
+};
+
+// Points whose own height is far worse than the others' (at the foot of a climb) do not help to
+// define the frame. With fewer than three good points the local covariance is the whole one.
+LocalFrameFit fit_local_frame(const Network& network, const State& state,
+                              const NetworkCovariance& covariance,
+                              const std::vector<Eigen::Matrix3d>& point_covariances);
+
+}  // namespace plumbline::orient

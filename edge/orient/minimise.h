@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "edge/orient/network.h"
+#include "edge/orient/terms.h"
+
+namespace plumbline::orient {
+
+struct MinimiseOptions {
+  double cauchy_scale = 0;  // of image rays, in sigmas; 0 = plain least squares
+  int max_iterations = 100;
+};
+
+struct Minimum {
+  State state;
+  double cost = 0;  // sum of weighted squared residuals, robustified where asked for
+  int iterations = 0;
+  bool converged = false;
+};
+
+// Levenberg-Marquardt from `state` to the nearest minimum (Levenberg 1944, Marquardt 1963).
+// `start`: what the datum terms hold on to.
+Minimum minimise(const Network& network, const State& state, const State& start,
+                 const TermOptions& terms, const MinimiseOptions& options);
+
+}  // namespace plumbline::orient

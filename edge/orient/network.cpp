@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "edge/orient/network.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace plumbline::orient {
+namespace {
+
+// A priori sigma of a group whose sigma nobody stated, until its variance is estimated.
+constexpr double kFirstGuessTiesPx = 0.5;
+constexpr double kFirstGuessPicksPx = 1.0;
+
+double first_sigma(const Observation& o) {
+  switch (o.group) {
+    case ImageGroup::kTies:
+      return o.sigma_px * kFirstGuessTiesPx;
+    case ImageGroup::kPicks:
+      return o.sigma_px * kFirstGuessPicksPx;
+    case ImageGroup::kStated:
+      break;
+  }
+  return o.sigma_px;
+}
+
+void collect_rays(Network& network) {
+  const Problem& problem = *network.problem;
+  for (std::size_t k = 0; k < problem.observations.size(); ++k) {
+    const Observation& o = problem.observations[k];
+    const int slot = network.slot_of_photo[static_cast<std::size_t>(o.photo)];
+    if (slot < 0) continue;
+    network.rays.push_back(
+        {slot, o.point, o.pixel, first_sigma(o), o.group, static_cast<int>(k), true});
+  }
+  std::stable_sort(network.rays.begin(), network.rays.end(), [](const Ray& a, const Ray& b) {
+    return std::tie(a.point, a.slot) < std::tie(b.point, b.slot);
+  });
+  network.first_ray.assign(problem.point_names.size() + 1, 0);
+  for (const Ray& ray : network.rays) ++network.first_ray[static_cast<std::size_t>(ray.point) + 1];
+  for (std::size_t p = 1; p < network.first_ray.size(); ++p) {
+    network.first_ray[p] += network.first_ray[p - 1];
+  }
+}
+
+void keep_coupled_points(Network& network) {
+  const Problem& problem = *network.problem;
+  Layout& layout = network.layout;
+  layout.kept_of_point.assign(problem.point_names.size(), -1);
+  const auto keep = [&](int point) {
+    int& index = layout.kept_of_point[static_cast<std::size_t>(point)];
+    if (index >= 0 || used_rays(network, point) == 0) return;
+    index = static_cast<int>(layout.kept.size());
+    layout.kept.push_back(point);
+  };
+  for (const Length& length : problem.lengths) {
+    keep(length.point_a);
+    keep(length.point_b);
+  }
+  for (const Control& control : problem.control) keep(control.point);
+}
+
+geometry::InteriorVector mask_of(const geometry::Camera& camera) {
+  const geometry::InteriorVector spread =
+      camera.covariance ? geometry::InteriorVector(camera.covariance->diagonal()) : camera.sigma;
+  return (spread.array() > 0).cast<double>();
+}
+
+}  // namespace
+
+Network make_network(const Problem& problem, std::vector<int> photo_of_slot) {
+  Network network;
+  network.problem = &problem;
+  network.interior_mask = mask_of(problem.camera);
+  network.photo_of_slot = std::move(photo_of_slot);
+  network.slot_of_photo.assign(problem.photos.size(), -1);
+  network.layout.slots = static_cast<int>(network.photo_of_slot.size());
+  for (int slot = 0; slot < network.layout.slots; ++slot) {
+    const int photo = network.photo_of_slot[static_cast<std::size_t>(slot)];
+    network.slot_of_photo[static_cast<std::size_t>(photo)] = slot;
+  }
+  collect_rays(network);
+  keep_coupled_points(network);
+  return network;
+}
+
+int used_rays(const Network& network, int point) {
+  const auto p = static_cast<std::size_t>(point);
+  const auto begin = network.rays.begin();
+  return static_cast<int>(std::count_if(begin + network.first_ray[p],
+                                        begin + network.first_ray[p + 1],
+                                        [](const Ray& ray) { return ray.used; }));
+}
+
+}  // namespace plumbline::orient

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "edge/orient/plane_similarity.h"
+
+#include <algorithm>
+#include <random>
+
+namespace plumbline::orient {
+namespace {
+
+constexpr int kSamples = 300;
+
+std::vector<bool> agreeing(const std::vector<PlaneMatch>& matches, const PlaneSimilarity& s,
+                           double tolerance) {
+  std::vector<bool> agree(matches.size());
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    agree[i] = std::abs(s.a * matches[i].first + s.b - matches[i].second) <= tolerance;
+  }
+  return agree;
+}
+
+PlaneSimilarity through(const PlaneMatch& p, const PlaneMatch& q) {
+  const std::complex<double> a = (q.second - p.second) / (q.first - p.first);
+  return {a, p.second - a * p.first, 0};
+}
+
+// Linear least squares over the complex numbers: a = <first', second'> / <first', first'>.
+PlaneSimilarity refined(const std::vector<PlaneMatch>& matches, const std::vector<bool>& chosen) {
+  std::complex<double> mean_first = 0, mean_second = 0;
+  int count = 0;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (!chosen[i]) continue;
+    mean_first += matches[i].first;
+    mean_second += matches[i].second;
+    ++count;
+  }
+  mean_first /= count;
+  mean_second /= count;
+  std::complex<double> cross = 0;
+  double square = 0;
+  for (std::size_t i = 0; i < matches.size(); ++i) {
+    if (!chosen[i]) continue;
+    cross += std::conj(matches[i].first - mean_first) * (matches[i].second - mean_second);
+    square += std::norm(matches[i].first - mean_first);
+  }
+  const std::complex<double> a = square > 0 ? cross / square : 1.0;
+  return {a, mean_second - a * mean_first, count};
+}
+
+int count_of(const std::vector<bool>& chosen) {
+  return static_cast<int>(std::count(chosen.begin(), chosen.end(), true));
+}
+
+}  // namespace
+
+std::optional<PlaneSimilarity> fit_similarity(const std::vector<PlaneMatch>& matches,
+                                              double tolerance) {
+  if (matches.size() < static_cast<std::size_t>(kLeastMatches)) return std::nullopt;
+  std::mt19937_64 random(20181);
+  std::vector<bool> best;
+  int most = 0;
+  for (int sample = 0; sample < kSamples; ++sample) {
+    const PlaneMatch& p = matches[random() % matches.size()];
+    const PlaneMatch& q = matches[random() % matches.size()];
+    if (std::abs(q.first - p.first) < tolerance || std::abs(q.second - p.second) < tolerance) {
+      continue;
+    }
+    std::vector<bool> agree = agreeing(matches, through(p, q), tolerance);
+    const int count = count_of(agree);
+    if (count <= most) continue;
+    most = count;
+    best = std::move(agree);
+  }
+  if (most < kLeastMatches) return std::nullopt;
+  best = agreeing(matches, refined(matches, best), tolerance);
+  if (count_of(best) < kLeastMatches) return std::nullopt;
+  return refined(matches, best);
+}
+
+}  // namespace plumbline::orient

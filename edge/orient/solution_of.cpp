@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+#include "edge/orient/solution_of.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "edge/geometry/rotation.h"
+
+namespace plumbline::orient {
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+geometry::Camera adjusted_camera(const Finished& f) {
+  geometry::Camera camera = f.network.problem->camera;
+  camera.interior = f.state.interior;
+  const geometry::InteriorMatrix covariance =
+      f.covariance.common().topLeftCorner<geometry::kInteriorCount, geometry::kInteriorCount>();
+  camera.sigma = covariance.diagonal().cwiseMax(0).cwiseSqrt();
+  camera.covariance = covariance;
+  return camera;
+}
+
+OrientedPhoto oriented(const Finished& f, int slot) {
+  OrientedPhoto photo;
+  photo.oriented = true;
+  photo.pose = f.state.poses[at(slot)];
+  const int column = f.network.layout.photo(slot);
+  photo.covariance = f.covariance.common().block<6, 6>(column, column);
+  const auto angles = geometry::angles_of(photo.pose.ground_from_photo);
+  const Eigen::Matrix3d by_increment = geometry::angles_by_ground_increment(angles);
+  photo.sigma_omega_phi_kappa_rad =
+      (by_increment * photo.covariance.bottomRightCorner<3, 3>() * by_increment.transpose())
+          .diagonal()
+          .cwiseMax(0)
+          .cwiseSqrt();
+  if (const auto& station = f.network.photo(slot).station) {
+    photo.gnss_residual_m = station->antenna_in_enu_m - photo.pose.centre_m -
+                            photo.pose.ground_from_photo * f.network.problem->lever_arm.in_photo_m;
+    photo.station_rejected =
+        !f.terms.station_weights.empty() && f.terms.station_weights[at(slot)] == 0;
+  }
+  return photo;
+}
+
+// Residuals of all rays, the rejected ones too.
+std::vector<ObservationResidual> residuals_of(const Finished& f) {
+  std::vector<ObservationResidual> out(f.network.problem->observations.size());
+  for (const Ray& ray : f.network.rays) {
+    ObservationResidual& residual = out[at(ray.observation)];
+    residual.sigma_px = ray.sigma_px;
+    residual.used = ray.used;
+    if (const auto computed_minus_measured = residual_of(ray, f.state)) {
+      residual.residual_px = -*computed_minus_measured;
+    }
+  }
+  return out;
+}
+
+void fill_points(const Finished& f, const std::vector<Eigen::Matrix3d>& covariances,
+                 const LocalFrameFit& frame, Solution& solution) {
+  solution.points.resize(at(f.network.points()));
+  for (int p = 0; p < f.network.points(); ++p) {
+    MeasuredPoint& point = solution.points[at(p)];
+    point.measured = f.covariance.point(p).measured;
+    if (!point.measured) continue;
+    point.in_enu_m = f.state.points[at(p)];
+    point.covariance_m2 = covariances[at(p)];
+    point.local_covariance_m2 = frame.local_covariance_m2[at(p)];
+    double squares = 0;
+    for (int k = f.network.first_ray[at(p)]; k < f.network.first_ray[at(p) + 1]; ++k) {
+      const auto residual = residual_of(f.network.rays[at(k)], f.state);
+      if (!f.network.rays[at(k)].used || !residual) continue;
+      ++point.rays;
+      squares += residual->squaredNorm();
+    }
+    point.residual_rms_px = point.rays > 0 ? std::sqrt(squares / point.rays) : 0;
+  }
+}
+
+void summarise_images(const Finished& f, const Solution& solution, Summary& summary) {
+  double squares = 0, variance = 0;
+  int used = 0;
+  for (const Ray& ray : f.network.rays) {
+    if (!ray.used) {
+      ++summary.observations_rejected;
+      continue;
+    }
+    squares += solution.residuals[at(ray.observation)].residual_px.squaredNorm();
+    variance += ray.sigma_px * ray.sigma_px;
+    ++used;
+  }
+  if (used == 0) return;
+  summary.reprojection_rms_px = std::sqrt(squares / used);
+  summary.image_sigma_px = std::sqrt(variance / used);
+}
+
+void summarise_fits(const Finished& f, Summary& summary) {
+  GroupFit total;
+  int observations = 0;
+  for (const auto& [name, fit] : f.fits) {
+    total.squares += fit.squares;
+    total.redundancy += fit.redundancy;
+    observations += fit.observations;
+    if (name == "datum") continue;
+    summary.sigma0_by_group[name] =
+        fit.redundancy > 1e-6 ? std::sqrt(fit.squares / fit.redundancy) : 0;
+  }
+  summary.sigma0 = total.redundancy > 1e-6 ? std::sqrt(total.squares / total.redundancy) : 0;
+  summary.redundancy = static_cast<int>(std::lround(total.redundancy));
+}
+
+void warn_of_rejected(const Finished& f, const Solution& solution, Summary& summary) {
+  for (std::size_t i = 0; i < solution.photos.size(); ++i) {
+    const OrientedPhoto& photo = solution.photos[i];
+    const std::string& name = f.network.problem->photos[i].name;
+    if (!photo.oriented) {
+      summary.warnings.push_back("Photo " + name +
+                                 " shares too few points with the others and was left out.");
+    } else if (photo.station_rejected) {
+      char size[32];
+      std::snprintf(size, sizeof size, "%.2f m", photo.gnss_residual_m->norm());
+      summary.warnings.push_back("The GNSS position of photo " + name +
+                                 " disagrees with all others by " + size + " and was not used.");
+    }
+  }
+}
+
+}  // namespace
+
+Solution solution_of(const Finished& f, const Options& options) {
+  Solution solution;
+  solution.camera = adjusted_camera(f);
+  solution.photos.resize(f.network.problem->photos.size());
+  for (int slot = 0; slot < f.network.slots(); ++slot) {
+    solution.photos[at(f.network.photo_of_slot[at(slot)])] = oriented(f, slot);
+  }
+  solution.residuals = residuals_of(f);
+  std::vector<Eigen::Matrix3d> covariances(at(f.network.points()), Eigen::Matrix3d::Zero());
+  for (int p = 0; p < f.network.points(); ++p) {
+    if (f.covariance.point(p).measured) covariances[at(p)] = f.covariance.point_covariance(p);
+  }
+  const LocalFrameFit frame = fit_local_frame(f.network, f.state, f.covariance, covariances);
+  fill_points(f, covariances, frame, solution);
+
+  Summary& summary = solution.summary;
+  summary.converged = f.converged;
+  summary.iterations = f.iterations;
+  summarise_images(f, solution, summary);
+  summarise_fits(f, summary);
+  summary.flying_height_m = flying_height(f.network, f.state);
+  const Evidence evidence{f.network, f.state, f.terms, f.covariance, frame};
+  summary.common = common_sigmas(evidence, summary.flying_height_m);
+  summary.unobservable = unobservable(evidence, summary.common, options);
+  warn_of_rejected(f, solution, summary);
+  for (std::string& sentence : cautions(evidence, summary.common)) {
+    summary.warnings.push_back(std::move(sentence));
+  }
+  solution.covariances = std::make_shared<NetworkCovariance>(f.covariance);
+  return solution;
+}
+
+}  // namespace plumbline::orient

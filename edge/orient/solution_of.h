@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "edge/orient/adjust.h"
+#include "edge/orient/blunders.h"
+#include "edge/orient/covariance.h"
+#include "edge/orient/diagnosis.h"
+
+namespace plumbline::orient {
+
+// An adjustment at its end.
+struct Finished {
+  const Network& network;
+  const State& state;
+  const TermOptions& terms;
+  const NetworkCovariance& covariance;
+  const GroupFits& fits;
+  int iterations = 0;
+  bool converged = false;
+};
+
+// Puts together what is handed to the user.
+Solution solution_of(const Finished& finished, const Options& options);
+
+}  // namespace plumbline::orient

@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: MIT
+#include "edge/orient/terms.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "edge/geometry/rotation.h"
+#include "edge/orient/camera_prior.h"
+
+namespace plumbline::orient {
+namespace {
+
+using geometry::kInteriorCount;
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+// Numerically tight, yet far from the limits of double precision beside the image rays.
+constexpr double kDatumSigmaM = 1e-5;
+constexpr double kDatumSigmaRad = 1e-6;
+constexpr double kDatumSigmaScale = 1e-6;
+// An azimuth that nobody knows is uniform over the circle.
+constexpr double kUniformAzimuthRad = std::numbers::pi / std::numbers::sqrt3;
+// Headings share one compass; this part of its sigma is taken as new in each photo.
+constexpr double kOwnHeadingShare = 0.2;
+constexpr double kLeastSigmaM = 1e-4;
+
+double wrapped(double angle_rad) { return std::remainder(angle_rad, 2 * std::numbers::pi); }
+
+geometry::OmegaPhiKappa angles(const State& state, int slot) {
+  return geometry::angles_of(state.poses[at(slot)].ground_from_photo);
+}
+
+Eigen::Matrix3d angles_by_increment(const State& state, int slot) {
+  return geometry::angles_by_ground_increment(angles(state, slot));
+}
+
+std::vector<int> range(int first, int count) {
+  std::vector<int> columns(at(count));
+  for (int i = 0; i < count; ++i) columns[at(i)] = first + i;
+  return columns;
+}
+
+Term scalar_term(const char* group, std::vector<int> columns, double residual, double sigma) {
+  Term term{group, std::move(columns), Eigen::VectorXd::Constant(1, residual), {}, {}};
+  term.jacobian.setZero(1, static_cast<Eigen::Index>(term.columns.size()));
+  term.information = Eigen::MatrixXd::Constant(1, 1, 1 / (sigma * sigma));
+  return term;
+}
+
+Term camera_term(const Network& network, const State& state, const TermOptions& options) {
+  Term term{"camera", range(0, kInteriorCount), {}, {}, {}};
+  term.residual = state.interior - network.problem->camera.interior;
+  term.jacobian = geometry::InteriorMatrix::Identity();
+  term.information = prior_information(network.problem->camera);
+  if (options.bridle_interior) term.information += bridle_information(network.problem->camera);
+  return term;
+}
+
+std::vector<int> pose_columns(const Network& network, const std::vector<int>& slots) {
+  std::vector<int> columns;
+  for (const int slot : slots) {
+    for (int i = 0; i < Layout::kPose; ++i) columns.push_back(network.layout.photo(slot) + i);
+  }
+  return columns;
+}
+
+// Antenna = C + R l. For R <- exp([d]x) R its derivative by d is -[R l]x.
+void add_stations(const Network& network, const State& state, const TermOptions& options,
+                  std::vector<Term>& terms) {
+  const std::vector<int> slots = station_slots(network, options);
+  if (slots.empty()) return;
+  const auto rows = static_cast<Eigen::Index>(3 * slots.size());
+  Term term{"gnss", pose_columns(network, slots), Eigen::VectorXd(rows), {}, {}};
+  term.jacobian.setZero(rows, 2 * rows);
+  for (std::size_t k = 0; k < slots.size(); ++k) {
+    const auto row = static_cast<Eigen::Index>(3 * k);
+    const geometry::Pose& pose = state.poses[at(slots[k])];
+    const Eigen::Vector3d arm = pose.ground_from_photo * network.problem->lever_arm.in_photo_m;
+    term.residual.segment<3>(row) =
+        pose.centre_m + arm - network.photo(slots[k]).station->antenna_in_enu_m;
+    term.jacobian.block<3, 3>(row, 2 * row).setIdentity();
+    term.jacobian.block<3, 3>(row, 2 * row + 3) = -geometry::cross_matrix(arm);
+  }
+  term.information = station_covariance(network, state, options).inverse();
+  terms.push_back(std::move(term));
+}
+
+// At zero tilt heading = -kappa. One compass: its error is common, a small share is each photo's.
+void add_headings(const Network& network, const State& state, std::vector<Term>& terms) {
+  std::vector<int> slots;
+  for (int slot = 0; slot < network.slots(); ++slot) {
+    if (network.photo(slot).heading) slots.push_back(slot);
+  }
+  if (slots.empty()) return;
+  const auto rows = static_cast<Eigen::Index>(slots.size());
+  Term term{"heading", pose_columns(network, slots), Eigen::VectorXd(rows), {}, {}};
+  term.jacobian.setZero(rows, Layout::kPose * rows);
+  Eigen::VectorXd sigma(rows);
+  for (Eigen::Index k = 0; k < rows; ++k) {
+    const int slot = slots[static_cast<std::size_t>(k)];
+    const HeadingPrior& prior = *network.photo(slot).heading;
+    term.residual[k] = wrapped(angles(state, slot).kappa_rad + prior.heading_rad);
+    term.jacobian.block<1, 3>(k, Layout::kPose * k + 3) = angles_by_increment(state, slot).row(2);
+    sigma[k] = prior.sigma_rad;
+  }
+  Eigen::MatrixXd covariance = sigma * sigma.transpose();
+  covariance += (kOwnHeadingShare * sigma).cwiseAbs2().asDiagonal();
+  term.information = covariance.inverse();
+  terms.push_back(std::move(term));
+}
+
+void add_angle(const Network& network, const State& state, int slot, int angle, double known_rad,
+               double sigma_rad, std::vector<Term>& terms) {
+  const geometry::OmegaPhiKappa now = angles(state, slot);
+  const double computed = std::array{now.omega_rad, now.phi_rad, now.kappa_rad}[at(angle)];
+  Term term = scalar_term("attitude", range(network.layout.photo(slot) + 3, 3),
+                          wrapped(computed - known_rad), sigma_rad);
+  term.jacobian = angles_by_increment(state, slot).row(angle);
+  terms.push_back(std::move(term));
+}
+
+// A stated attitude where there is one; else the mount keeps the photo near the vertical.
+void add_attitude(const Network& network, const State& state, int slot, const TermOptions& options,
+                  std::vector<Term>& terms) {
+  const auto& prior = network.photo(slot).attitude;
+  for (int angle = 0; angle < 3; ++angle) {
+    const bool stated = prior && std::isfinite(prior->sigma_rad[angle]);
+    if (stated && (angle < 2 || options.datum == Datum::kKnown)) {
+      add_angle(network, state, slot, angle, prior->omega_phi_kappa_rad[angle],
+                prior->sigma_rad[angle], terms);
+    } else if (angle < 2) {
+      add_angle(network, state, slot, angle, 0, options.tilt_sigma_rad, terms);
+    }
+  }
+}
+
+void add_lengths(const Network& network, const State& state, std::vector<Term>& terms) {
+  const Layout& layout = network.layout;
+  for (const Length& length : network.problem->lengths) {
+    const int a = layout.kept_of_point[at(length.point_a)];
+    const int b = layout.kept_of_point[at(length.point_b)];
+    if (a < 0 || b < 0) continue;
+    const Eigen::Vector3d difference =
+        state.points[at(length.point_b)] - state.points[at(length.point_a)];
+    std::vector<int> columns = range(layout.kept_point(a), 3);
+    for (int i = 0; i < 3; ++i) columns.push_back(layout.kept_point(b) + i);
+    const double metres = std::max(difference.norm(), 1e-9);
+    Term term = scalar_term("lengths", std::move(columns), metres - length.metres,
+                            std::max(length.sigma_m, kLeastSigmaM));
+    term.jacobian << -difference.transpose() / metres, difference.transpose() / metres;
+    terms.push_back(std::move(term));
+  }
+}
+
+void add_control(const Network& network, const State& state, std::vector<Term>& terms) {
+  for (const Control& control : network.problem->control) {
+    const int kept = network.layout.kept_of_point[at(control.point)];
+    if (kept < 0) continue;
+    const Eigen::Matrix3d floor = kLeastSigmaM * kLeastSigmaM * Eigen::Matrix3d::Identity();
+    terms.push_back({"control", range(network.layout.kept_point(kept), 3),
+                     state.points[at(control.point)] - control.in_enu_m,
+                     Eigen::Matrix3d::Identity(), (control.covariance_m2 + floor).inverse()});
+  }
+}
+
+// Inner constraints on the camera stations: what the network cannot know of itself stays, on the
+// whole, where it started.
+void add_translation_datum(const Network& network, const State& state, const State& start,
+                           std::vector<Term>& terms) {
+  const int slots = network.slots();
+  Term term{"datum", {}, Eigen::Vector3d::Zero(), {}, {}};
+  term.jacobian.setZero(3, 3 * slots);
+  for (int slot = 0; slot < slots; ++slot) {
+    for (int i = 0; i < 3; ++i) term.columns.push_back(network.layout.photo(slot) + i);
+    term.residual += (state.poses[at(slot)].centre_m - start.poses[at(slot)].centre_m) / slots;
+    term.jacobian.block<3, 3>(0, 3 * slot) = Eigen::Matrix3d::Identity() / slots;
+  }
+  term.information = Eigen::Matrix3d::Identity() / (kDatumSigmaM * kDatumSigmaM);
+  terms.push_back(std::move(term));
+}
+
+void add_azimuth_datum(const Network& network, const State& state, const State& start,
+                       double sigma_rad, std::vector<Term>& terms) {
+  const int slots = network.slots();
+  std::vector<int> columns;
+  Eigen::RowVectorXd jacobian(3 * slots);
+  double residual = 0;
+  for (int slot = 0; slot < slots; ++slot) {
+    for (int i = 0; i < 3; ++i) columns.push_back(network.layout.photo(slot) + 3 + i);
+    residual += wrapped(angles(state, slot).kappa_rad - angles(start, slot).kappa_rad) / slots;
+    jacobian.segment<3>(3 * slot) = angles_by_increment(state, slot).row(2) / slots;
+  }
+  Term term = scalar_term("datum", std::move(columns), residual, sigma_rad);
+  term.jacobian = jacobian;
+  terms.push_back(std::move(term));
+}
+
+Eigen::Vector3d mean_centre(const State& state) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const geometry::Pose& pose : state.poses) sum += pose.centre_m;
+  return sum / static_cast<double>(state.poses.size());
+}
+
+double spread(const State& state) {
+  const Eigen::Vector3d mean = mean_centre(state);
+  double sum = 0;
+  for (const geometry::Pose& pose : state.poses) sum += (pose.centre_m - mean).squaredNorm();
+  return std::sqrt(sum);
+}
+
+void add_scale_datum(const Network& network, const State& state, const State& start,
+                     std::vector<Term>& terms) {
+  const double at_start = std::max(spread(start), 1e-9);
+  const double now = std::max(spread(state), 1e-9);
+  const Eigen::Vector3d mean = mean_centre(state);
+  std::vector<int> columns;
+  Eigen::RowVectorXd jacobian(3 * network.slots());
+  for (int slot = 0; slot < network.slots(); ++slot) {
+    for (int i = 0; i < 3; ++i) columns.push_back(network.layout.photo(slot) + i);
+    jacobian.segment<3>(3 * slot) =
+        (state.poses[at(slot)].centre_m - mean).transpose() / (now * at_start);
+  }
+  Term term = scalar_term("datum", std::move(columns), now / at_start - 1, kDatumSigmaScale);
+  term.jacobian = jacobian;
+  terms.push_back(std::move(term));
+}
+
+int kept_control(const Network& network) {
+  return static_cast<int>(std::count_if(
+      network.problem->control.begin(), network.problem->control.end(),
+      [&](const Control& c) { return network.layout.kept_of_point[at(c.point)] >= 0; }));
+}
+
+bool has_kappa(const Network& network) {
+  for (int slot = 0; slot < network.slots(); ++slot) {
+    const Photo& photo = network.photo(slot);
+    if (photo.heading) return true;
+    if (photo.attitude && std::isfinite(photo.attitude->sigma_rad[2])) return true;
+  }
+  return false;
+}
+
+bool has_length(const Network& network) {
+  return std::any_of(network.problem->lengths.begin(), network.problem->lengths.end(),
+                     [&](const Length& length) {
+                       return network.layout.kept_of_point[at(length.point_a)] >= 0 &&
+                              network.layout.kept_of_point[at(length.point_b)] >= 0;
+                     });
+}
+
+}  // namespace
+
+std::vector<int> station_slots(const Network& network, const TermOptions& options) {
+  std::vector<int> slots;
+  if (options.datum == Datum::kFree) return slots;
+  for (int slot = 0; slot < network.slots(); ++slot) {
+    const bool believed = options.station_weights.empty() || options.station_weights[at(slot)] > 0;
+    if (network.photo(slot).station && believed) slots.push_back(slot);
+  }
+  return slots;
+}
+
+Eigen::MatrixXd station_covariance(const Network& network, const State& state,
+                                   const TermOptions& options) {
+  const std::vector<int> slots = station_slots(network, options);
+  const GnssErrorModel& model = network.problem->gnss;
+  const LeverArm& arm = network.problem->lever_arm;
+  const Eigen::Vector3d offset(model.offset_sigma_horizontal_m, model.offset_sigma_horizontal_m,
+                               model.offset_sigma_vertical_m);
+  const Eigen::Vector3d drift(model.correlated_sigma_horizontal_m,
+                              model.correlated_sigma_horizontal_m,
+                              model.correlated_sigma_vertical_m);
+  const auto size = static_cast<Eigen::Index>(3 * slots.size());
+  Eigen::MatrixXd covariance(size, size);
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    for (std::size_t j = 0; j < slots.size(); ++j) {
+      const Photo &a = network.photo(slots[i]), &b = network.photo(slots[j]);
+      const double apart_s = std::abs(a.time_s.value_or(0) - b.time_s.value_or(0));
+      const double alike = model.correlation_s > 0 ? std::exp(-apart_s / model.correlation_s) : 0;
+      Eigen::Matrix3d block =
+          (offset.cwiseAbs2() + alike * drift.cwiseAbs2()).asDiagonal().toDenseMatrix();
+      block += arm.sigma_m * arm.sigma_m * state.poses[at(slots[i])].ground_from_photo *
+               state.poses[at(slots[j])].ground_from_photo.transpose();
+      if (i == j) {
+        const double weight =
+            options.station_weights.empty() ? 1 : options.station_weights[at(slots[i])];
+        block +=
+            (a.station->covariance_m2 + kLeastSigmaM * kLeastSigmaM * Eigen::Matrix3d::Identity()) /
+            weight;
+      }
+      covariance.block<3, 3>(static_cast<Eigen::Index>(3 * i), static_cast<Eigen::Index>(3 * j)) =
+          block;
+    }
+  }
+  return covariance;
+}
+
+DatumDefect datum_defect(const Network& network, const TermOptions& options) {
+  if (options.datum == Datum::kFree) return {true, true, true};
+  const std::size_t stations = station_slots(network, options).size();
+  const int control = kept_control(network);
+  return {stations == 0 && control == 0, stations < 2 && control < 2 && !has_kappa(network),
+          stations < 2 && control < 2 && !has_length(network)};
+}
+
+std::vector<Term> linearised_terms(const Network& network, const State& state, const State& start,
+                                   const TermOptions& options) {
+  std::vector<Term> terms;
+  terms.push_back(camera_term(network, state, options));
+  for (int slot = 0; slot < network.slots(); ++slot) {
+    add_attitude(network, state, slot, options, terms);
+  }
+  if (options.datum == Datum::kKnown) {
+    add_stations(network, state, options, terms);
+    add_headings(network, state, terms);
+    add_lengths(network, state, terms);
+    add_control(network, state, terms);
+  }
+  const DatumDefect defect = datum_defect(network, options);
+  if (defect.translation) add_translation_datum(network, state, start, terms);
+  add_azimuth_datum(network, state, start, defect.azimuth ? kDatumSigmaRad : kUniformAzimuthRad,
+                    terms);
+  if (defect.scale) add_scale_datum(network, state, start, terms);
+  return terms;
+}
+
+double cost_of(const std::vector<Term>& terms) {
+  double cost = 0;
+  for (const Term& term : terms) cost += term.residual.dot(term.information * term.residual);
+  return cost;
+}
+
+}  // namespace plumbline::orient

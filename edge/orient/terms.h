@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "edge/orient/network.h"
+
+namespace plumbline::orient {
+
+// One linearised term on the columns of the reduced system: everything known but the image rays.
+// residual = computed - known; information = inverse covariance.
+struct Term {
+  std::string group;  // gnss, heading, attitude, camera, lengths, control, datum
+  std::vector<int> columns;
+  Eigen::VectorXd residual;
+  Eigen::MatrixXd jacobian;  // residual by columns
+  Eigen::MatrixXd information;
+};
+
+// What holds the network in space.
+enum class Datum {
+  kFree,   // the photos alone: stations, headings, lengths and control are left aside
+  kKnown,  // everything that is known
+};
+
+struct TermOptions {
+  Datum datum = Datum::kKnown;
+  double tilt_sigma_rad = 0;
+  bool bridle_interior = false;  // the first, crude stage holds a free camera near its start
+  // Per slot: 1 = as stated, towards 0 = not believed, 0 = rejected.
+  std::vector<double> station_weights;
+};
+
+// Gauge freedoms of the network that nothing known removes.
+struct DatumDefect {
+  bool translation = false;
+  bool azimuth = false;
+  bool scale = false;
+};
+DatumDefect datum_defect(const Network& network, const TermOptions& options);
+
+std::vector<Term> linearised_terms(const Network& network, const State& state, const State& start,
+                                   const TermOptions& options);
+
+// Sum of residual' information residual.
+double cost_of(const std::vector<Term>& terms);
+
+// Covariance of all stations of the network together (3m x 3m, order of `station_slots`): the
+// white part of each over its weight, lever arm, common offset and Gauss-Markov part.
+std::vector<int> station_slots(const Network& network, const TermOptions& options);
+Eigen::MatrixXd station_covariance(const Network& network, const State& state,
+                                   const TermOptions& options);
+
+}  // namespace plumbline::orient
