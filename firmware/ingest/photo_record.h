@@ -54,6 +54,7 @@ struct PhotoRecord {
   std::string name;  // file name with extension
   std::filesystem::path path;
   std::string sha256;
+  std::size_t bytes = 0;  // of the file
   int width_px = 0;
   int height_px = 0;
   std::string make;
