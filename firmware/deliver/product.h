@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "edge/orient/adjust.h"
 #include "edge/orient/problem.h"
 #include "edge/orient/solution.h"
 #include "edge/survey/check_points.h"
@@ -25,12 +28,13 @@ struct Product {
   std::string title;  // what was measured, for the report: a folder's name
   orient::Problem problem;
   orient::Solution solution;
+  orient::Options options;  // as adjusted with: the thresholds are printed
   survey::Counts counts;
   std::optional<survey::CheckReport> check;
   std::optional<GeoOrigin> origin;  // empty: local frame only
   std::string datum = "that of the base";
-  int plane_rectangular_zone = 0;            // 1..19; 0: chosen by the origin, or UTM outside Japan
-  std::vector<std::string> warnings;         // sentences, beside those of the solution
+  int plane_rectangular_zone = 0;     // 1..19; 0: chosen by the origin, or UTM outside Japan
+  std::vector<std::string> warnings;  // sentences, beside those of the solution
   std::map<std::string, std::string> input_sha256;  // file name (no folder) to hash
 };
 
