@@ -20,6 +20,12 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 // Cauchy scales in sigmas, annealed from crude to sharp.
 constexpr double kCrude[] = {100, 20, 6};
 constexpr double kSharp[] = {6, 2.5};
+// The free network is a long, curved valley (focal length, height and tilt all but compensate):
+// the crude stages need only come near enough for the stations to take over.
+constexpr int kCrudeIterations = 30;
+constexpr double kCrudeTolerance = 1e-4;
+constexpr double kRobustTolerance = 1e-6;
+constexpr double kFinalTolerance = 1e-11;
 // Photos whose largest separation is below this share of the flying height stand on one place.
 constexpr double kLeastBase = 0.005;
 constexpr int kMaxRounds = 12;
@@ -47,9 +53,8 @@ class Adjustment {
   }
 
  private:
-  void minimise_from(const State& datum, double cauchy_scale) {
-    const Minimum minimum =
-        minimise(network_, state_, datum, terms_, {cauchy_scale, options_.max_iterations});
+  void minimise_from(const State& datum, const MinimiseOptions& how) {
+    const Minimum minimum = minimise(network_, state_, datum, terms_, how);
     state_ = minimum.state;
     iterations_ += minimum.iterations;
     converged_ = minimum.converged;
@@ -61,7 +66,7 @@ class Adjustment {
     const State start = state_;
     drop_unprojectable(network_, state_);
     for (const double scale : kCrude) {
-      minimise_from(start, scale);
+      minimise_from(start, {scale, kCrudeIterations, kCrudeTolerance});
       rescale_by_median(network_, state_);
     }
   }
@@ -82,19 +87,20 @@ class Adjustment {
     state_ = aligned(network_, state_, terms_);
     datum_ = state_;
     for (const double scale : kSharp) {
-      minimise_from(datum_, scale);
+      minimise_from(datum_, {scale, options_.max_iterations, kRobustTolerance});
       rescale_by_median(network_, state_);
       terms_.station_weights = robust_station_weights(network_, state_);
     }
-    minimise_from(datum_, kSharp[1]);
+    minimise_from(datum_, {kSharp[1], options_.max_iterations, kRobustTolerance});
     terms_.station_weights.assign(at(network_.slots()), 1.0);
   }
 
   // Plain least squares without what was found to be wrong, so that the covariance is honest.
   Result<Solution> finish() {
     for (int round = 0;; ++round) {
-      const int changed = reject_rays(network_, state_, options_.rejection_sigma);
-      minimise_from(datum_, 0);
+      int changed = reject_rays(network_, state_, options_.rejection_sigma);
+      changed += drop_far_points();
+      minimise_from(datum_, {0, options_.max_iterations, kFinalTolerance});
       const RaysLinear rays = linearise_rays(network_, state_, 0);
       const auto terms = linearised_terms(network_, state_, datum_, terms_);
       const auto equations = normal_equations(network_, rays.rays, terms);
@@ -113,6 +119,12 @@ class Adjustment {
                            options_);
       }
     }
+  }
+
+  int drop_far_points() {
+    const RaysLinear rays = linearise_rays(network_, state_, 0);
+    const double limit = std::abs(flying_height(network_, state_));
+    return drop_undetermined(network_, normal_equations(network_, rays.rays, {}), limit);
   }
 
   bool reject_station(const std::vector<Term>& terms, const NetworkCovariance& covariance) {

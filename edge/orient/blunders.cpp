@@ -50,6 +50,14 @@ bool holds_with_one_ray(const Network& network, int point) {
                      [&](const Control& c) { return c.point == point; });
 }
 
+// A point that lost rays must keep three, and more than half: two rays always meet somewhere, and
+// what meets by chance meets far from the ground.
+bool holds_together(const Network& network, int point, std::ptrdiff_t good, int given) {
+  if (network.undetermined[at(point)]) return false;
+  if (holds_with_one_ray(network, point)) return good >= 1;
+  return good >= 2 && (good == given || (good >= 3 && 2 * good > given));
+}
+
 }  // namespace
 
 std::string name_of(ImageGroup group) {
@@ -123,8 +131,8 @@ int reject_rays(Network& network, const State& state, double sigmas) {
     for (int k = first; k < last; ++k) {
       good.push_back(squared_sigmas(network.rays[at(k)], state) <= sigmas * sigmas);
     }
-    const auto count = std::count(good.begin(), good.end(), true);
-    const bool enough = count >= 2 || (count == 1 && holds_with_one_ray(network, p));
+    const bool enough =
+        holds_together(network, p, std::count(good.begin(), good.end(), true), last - first);
     for (int k = first; k < last; ++k) {
       const bool use = enough && good[at(k - first)];
       changed += use != network.rays[at(k)].used ? 1 : 0;
@@ -132,6 +140,22 @@ int reject_rays(Network& network, const State& state, double sigmas) {
     }
   }
   return changed;
+}
+
+int drop_undetermined(Network& network, const NormalEquations& equations, double limit_m) {
+  int dropped = 0;
+  for (int p = 0; p < network.points(); ++p) {
+    const PointBlock& block = equations.points[at(p)];
+    if (!block.active) continue;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> modes(block.v, Eigen::EigenvaluesOnly);
+    if (modes.eigenvalues()[0] * limit_m * limit_m > 1) continue;
+    network.undetermined[at(p)] = true;
+    for (int k = network.first_ray[at(p)]; k < network.first_ray[at(p) + 1]; ++k) {
+      network.rays[at(k)].used = false;
+    }
+    ++dropped;
+  }
+  return dropped;
 }
 
 void drop_unprojectable(Network& network, const State& state) {

@@ -37,6 +37,10 @@ double rescale_by_variance(Network& network, const GroupFits& fits);
 // one ray that nothing else holds. Returns how many rays changed sides.
 int reject_rays(Network& network, const State& state, double sigmas);
 
+// Drops for good the points whose rays, poses given, leave them a sigma beyond `limit_m`. Returns
+// how many.
+int drop_undetermined(Network& network, const NormalEquations& equations, double limit_m);
+
 // Before a stage: sets aside rays that cannot be projected at all.
 void drop_unprojectable(Network& network, const State& state);
 

@@ -11,8 +11,6 @@ namespace {
 constexpr double kFirstLambda = 1e-4;
 constexpr double kLeastLambda = 1e-12;
 constexpr double kMostLambda = 1e8;
-// A step that lowers the cost by less than this share, nearly undamped, is the last one.
-constexpr double kConverged = 1e-10;
 constexpr double kNearlyUndamped = 1e-3;
 
 struct Evaluated {
@@ -57,12 +55,13 @@ class Minimiser {
       Evaluated there = evaluate(trial);
       if (!(there.cost <= current_.cost)) {
         // At the bottom, rounding alone may lift the cost.
-        if (there.cost - current_.cost <= kConverged * current_.cost) minimum_.converged = true;
+        if (there.cost - current_.cost <= options_.tolerance * current_.cost)
+          minimum_.converged = true;
         if (minimum_.converged) return true;
         continue;
       }
       const double gain = current_.cost - there.cost;
-      minimum_.converged = gain <= kConverged * current_.cost && lambda_ < kNearlyUndamped;
+      minimum_.converged = gain <= options_.tolerance * current_.cost && lambda_ < kNearlyUndamped;
       minimum_.state = trial;
       current_ = std::move(there);
       lambda_ = std::max(lambda_ / 8, kLeastLambda);

@@ -70,6 +70,7 @@ geometry::InteriorVector mask_of(const geometry::Camera& camera) {
 Network make_network(const Problem& problem, std::vector<int> photo_of_slot) {
   Network network;
   network.problem = &problem;
+  network.undetermined.assign(problem.point_names.size(), false);
   network.interior_mask = mask_of(problem.camera);
   network.photo_of_slot = std::move(photo_of_slot);
   network.slot_of_photo.assign(problem.photos.size(), -1);

@@ -49,6 +49,8 @@ struct Network {
   std::vector<int> slot_of_photo;  // -1: not tied to the others
   std::vector<Ray> rays;           // sorted by point, then slot
   std::vector<int> first_ray;      // of point p: rays [first_ray[p], first_ray[p + 1])
+  // By point: its rays meet at so small an angle that its distance is anyone's guess.
+  std::vector<bool> undetermined;
   Layout layout;
   // 1 for a parameter that is adjusted, 0 for one that is held fixed.
   geometry::InteriorVector interior_mask = geometry::InteriorVector::Ones();
