@@ -179,7 +179,7 @@ std::vector<Track> measure_tracks(const std::vector<PhotoLevels>& photos,
     const auto partners = partners_of(reference, photos, pairs);
     progress(done++, static_cast<int>(photos.size()));
     if (partners.empty()) continue;
-    const int cells = std::max(options.ties_wanted / 2, 50);
+    const int cells = std::max(options.ties_wanted * 4 / 5, 50);
     const double side_px = std::sqrt(photo.size_px().prod() / cells);
     auto corners = best_corners(photo, CellGrid(photo.size_px(), cells), kMargin_px);
     std::erase_if(corners, [&](const Eigen::Vector2d& corner) {
