@@ -111,7 +111,7 @@ int plane_rectangular_zone_of(double latitude_deg, double longitude_deg) {
     const double east_km =
         kKmPerDegree * (longitude_deg - town.longitude_deg) * std::cos(latitude_deg * kRadPerDeg);
     const double distance_km = std::hypot(north_km, east_km);
-    if (distance_km >= nearest_km) continue;
+    if (!(distance_km < nearest_km)) continue;
     nearest_km = distance_km;
     zone = town.zone;
   }
