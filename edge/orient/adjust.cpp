@@ -54,6 +54,7 @@ class Adjustment {
 
  private:
   void minimise_from(const State& datum, const MinimiseOptions& how) {
+    if (how.cauchy_scale > 0) replant_wild_points(network_, state_);
     const Minimum minimum = minimise(network_, state_, datum, terms_, how);
     state_ = minimum.state;
     iterations_ += minimum.iterations;

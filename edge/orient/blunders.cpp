@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace plumbline::orient {
 namespace {
@@ -18,6 +19,7 @@ constexpr double kLeastSigmaPx = 1e-3;          // noise-free input must not div
 constexpr double kStationChiSquare3 = 16.27;    // 0.1 %
 constexpr double kLeastRedundancy = 0.02;
 constexpr double kStationCauchySigmas = 3;
+constexpr double kWildHeight = 0.4;  // of the flying height, above or below the ground
 
 constexpr ImageGroup kEstimated[] = {ImageGroup::kTies, ImageGroup::kPicks};
 
@@ -31,6 +33,22 @@ double squared_sigmas(const Ray& ray, const State& state) {
   const auto residual = residual_of(ray, state);
   if (!residual) return std::numeric_limits<double>::infinity();
   return residual->squaredNorm() / (ray.sigma_px * ray.sigma_px);
+}
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Where a ray meets the horizontal plane z = height.
+std::optional<Eigen::Vector3d> on_plane(const Ray& ray, const State& state, double height) {
+  const geometry::Pose& pose = state.poses[at(ray.slot)];
+  const auto direction = geometry::ray_in_photo(state.interior, ray.pixel);
+  if (!direction) return std::nullopt;
+  const Eigen::Vector3d in_ground = pose.ground_from_photo * *direction;
+  if (!(in_ground.z() < 0)) return std::nullopt;
+  return pose.centre_m + in_ground * ((height - pose.centre_m.z()) / in_ground.z());
 }
 
 // Of the two coordinates of a ray, the share that is not spent on unknowns, on average.
@@ -80,10 +98,9 @@ void rescale_by_median(Network& network, const State& state) {
       if (ray.used && ray.group == group) squares.push_back(squared_sigmas(ray, state));
     }
     if (squares.empty()) continue;
-    const auto middle = squares.begin() + static_cast<std::ptrdiff_t>(squares.size() / 2);
-    std::nth_element(squares.begin(), middle, squares.end());
-    if (!std::isfinite(*middle)) continue;
-    rescale(network, group, std::sqrt(*middle / kMedianOfChiSquare2 / redundancy));
+    const double middle = median(squares);
+    if (!std::isfinite(middle)) continue;
+    rescale(network, group, std::sqrt(middle / kMedianOfChiSquare2 / redundancy));
   }
 }
 
@@ -140,6 +157,29 @@ int reject_rays(Network& network, const State& state, double sigmas) {
     }
   }
   return changed;
+}
+
+void replant_wild_points(const Network& network, State& state) {
+  std::vector<double> heights, stations;
+  for (int p = 0; p < network.points(); ++p) {
+    if (used_rays(network, p) > 0) heights.push_back(state.points[at(p)].z());
+  }
+  for (const geometry::Pose& pose : state.poses) stations.push_back(pose.centre_m.z());
+  if (heights.empty() || stations.empty()) return;
+  const double ground = median(heights);
+  const double limit = kWildHeight * std::abs(median(stations) - ground);
+  for (int p = 0; p < network.points(); ++p) {
+    Eigen::Vector3d& point = state.points[at(p)];
+    if (std::abs(point.z() - ground) <= limit) continue;
+    std::vector<double> east, north;
+    for (int k = network.first_ray[at(p)]; k < network.first_ray[at(p) + 1]; ++k) {
+      if (const auto foot = on_plane(network.rays[at(k)], state, ground)) {
+        east.push_back(foot->x());
+        north.push_back(foot->y());
+      }
+    }
+    if (!east.empty()) point = {median(east), median(north), ground};
+  }
 }
 
 int drop_undetermined(Network& network, const NormalEquations& equations, double limit_m) {

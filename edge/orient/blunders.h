@@ -41,6 +41,11 @@ int reject_rays(Network& network, const State& state, double sigmas);
 // how many.
 int drop_undetermined(Network& network, const NormalEquations& equations, double limit_m);
 
+// Before a stage: a point that mismatches have thrown far above or below the ground goes back to
+// the median of its rays' intersections with the ground plane; left near its cameras it would
+// block every step.
+void replant_wild_points(const Network& network, State& state);
+
 // Before a stage: sets aside rays that cannot be projected at all.
 void drop_unprojectable(Network& network, const State& state);
 
