@@ -31,7 +31,7 @@ struct Embankment {
   Eigen::Vector2d point_m = Eigen::Vector2d::Zero();     // on its axis
   Eigen::Vector2d direction = Eigen::Vector2d::UnitX();  // of its axis
   double crown_half_width_m = 1;
-  double slope = 0.6;  // height over width
+  double slope = 0.5;  // height over width
   double height_m = 1.8;
 };
 

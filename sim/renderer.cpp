@@ -65,12 +65,14 @@ class LineCaster {
     const std::vector<Eigen::Vector2d> ground = ground_directions(v);
     double height_m = 0;
     for (int u = 0; u < camera_.width_px; ++u) {
+      const Footprint footprint(
+          std::max(0.5 * (pose_.centre_m.z() - height_m) / camera_.interior[0], 1e-4));
       for (const double sub : kSubPixels) {
         const double x = (u + sub) / kLattice_px + 1;
         const auto i = static_cast<std::size_t>(x);
         const double a = x - static_cast<double>(i);
         const Eigen::Vector2d per_metre = (1 - a) * ground[i] + a * ground[i + 1];
-        const Eigen::Vector3f colour = sample(per_metre, height_m);
+        const Eigen::Vector3f colour = sample(per_metre, footprint, height_m);
         for (int c = 0; c < 3; ++c) row[3 * u + c] += 0.25f * colour[c];
       }
     }
@@ -89,14 +91,14 @@ class LineCaster {
     return directions;
   }
 
-  Eigen::Vector3f sample(const Eigen::Vector2d& per_metre, double& height_m) const {
+  Eigen::Vector3f sample(const Eigen::Vector2d& per_metre, const Footprint& footprint,
+                         double& height_m) const {
     const Eigen::Vector3d& centre_m = pose_.centre_m;
     const Eigen::Vector2d at_zero_m = centre_m.head<2>() - centre_m.z() * per_metre;
     height_m = world_.terrain().meet({at_zero_m.x(), at_zero_m.y(), per_metre.x(), per_metre.y()},
                                      height_m);
-    const double footprint_m = 0.5 * (centre_m.z() - height_m) / camera_.interior[0];
     return world_.colour(at_zero_m.x() + height_m * per_metre.x(),
-                         at_zero_m.y() + height_m * per_metre.y(), std::max(footprint_m, 1e-4));
+                         at_zero_m.y() + height_m * per_metre.y(), footprint);
   }
 
   const World& world_;

@@ -31,6 +31,7 @@ double smooth_step(double t) {
 
 Terrain::Terrain(const TerrainOptions& options)
     : cell_m_(options.cell_m),
+      cells_per_metre_(1 / options.cell_m),
       half_extent_m_(options.half_extent_m),
       features_(random_features(options.seed, options.spread)),
       heights_(hills(options)) {
@@ -40,8 +41,8 @@ Terrain::Terrain(const TerrainOptions& options)
 
 double Terrain::height_m(double east_m, double north_m) const {
   const double limit = heights_.side - 1.001;
-  const double x = std::clamp((east_m + half_extent_m_) / cell_m_, 0.0, limit);
-  const double y = std::clamp((north_m + half_extent_m_) / cell_m_, 0.0, limit);
+  const double x = std::clamp((east_m + half_extent_m_) * cells_per_metre_, 0.0, limit);
+  const double y = std::clamp((north_m + half_extent_m_) * cells_per_metre_, 0.0, limit);
   const int i = static_cast<int>(x);
   const int j = static_cast<int>(y);
   const double a = x - i;
@@ -77,8 +78,10 @@ void Terrain::raise_features(double relief, int threads) {
       float& height = heights_.at(x, y);
       height += static_cast<float>(relief * features_.raised_m(place_m));
       for (std::size_t k = 0; k < features_.boxes.size(); ++k) {
-        if (features_.boxes[k].outside_m(place_m) > 0) continue;
-        height = std::max(height, static_cast<float>(box_tops_m[k]));
+        // Over one cell, so that sides that run askew to the grid are straight.
+        const double inside =
+            std::clamp(0.5 - features_.boxes[k].outside_m(place_m) / cell_m_, 0.0, 1.0);
+        height += static_cast<float>(inside * std::max(0.0, box_tops_m[k] - height));
       }
     }
   });

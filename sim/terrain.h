@@ -52,7 +52,7 @@ class Terrain {
     double east_per_metre = 0;
     double north_per_metre = 0;
   };
-  // The height at which a ray from above first meets the ground, to 20 micrometres.
+  // The height at which a ray from above first meets the ground, to 40 micrometres.
   // `guess_m`: a height of the ground nearby; it decides the speed, not the result.
   double meet(const Ray& ray, double guess_m) const;
 
@@ -66,6 +66,7 @@ class Terrain {
   double bisect(const Ray& ray, double above_m, double below_m) const;
 
   double cell_m_;
+  double cells_per_metre_;
   double half_extent_m_;
   double highest_m_ = 0;
   Features features_;

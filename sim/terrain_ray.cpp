@@ -14,7 +14,8 @@ constexpr double kCoarseCell_m = 1.0;
 constexpr double kSteepSlope =
     0.45;  // rays of 60 degrees off the vertical still meet once below it
 constexpr double kSteepReach_m = 5.0;
-constexpr double kTolerance_m = 2e-5;
+constexpr double kTolerance_m = 2e-5;  // of a halving
+constexpr double kLastStep_m = 4e-4;    // of the secant: what remains is a tenth of it or less
 
 double east(const Terrain::Ray& ray, double z) {
   return ray.east_at_zero_m + z * ray.east_per_metre;
@@ -98,7 +99,7 @@ double Terrain::meet(const Ray& ray, double guess_m) const {
   double z0 = guess_m;
   double f0 = height_m(east(ray, z0), north(ray, z0)) - z0;
   double z1 = z0 + f0;
-  for (int k = 0; k < 12 && std::abs(z1 - z0) > kTolerance_m; ++k) {
+  for (int k = 0; k < 12 && std::abs(z1 - z0) > kLastStep_m; ++k) {
     const double f1 = height_m(east(ray, z1), north(ray, z1)) - z1;
     const double fall = (f1 - f0) / (z1 - z0);  // -1 on level ground
     const double next = z1 - f1 / std::min(fall, -0.3);

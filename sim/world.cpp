@@ -86,14 +86,15 @@ void World::note_cells() {
 }
 
 void World::shine(int threads) {
-  light_cell_m_ = terrain_.cell_m();
+  const double light_cell_m = terrain_.cell_m();
+  light_cells_per_metre_ = 1 / light_cell_m;
   const double half_m = terrain_.half_extent_m();
-  light_.side = static_cast<int>(2 * half_m / light_cell_m_);
+  light_.side = static_cast<int>(2 * half_m / light_cell_m);
   light_.values.resize(static_cast<std::size_t>(light_.side) *
                        static_cast<std::size_t>(light_.side));
   parallel_for(light_.side, threads, [&](int y) {
     for (int x = 0; x < light_.side; ++x) {
-      const Eigen::Vector2d place_m(x * light_cell_m_ - half_m, y * light_cell_m_ - half_m);
+      const Eigen::Vector2d place_m(x * light_cell_m - half_m, y * light_cell_m - half_m);
       bool in_sun = true;
       if (terrain_.may_be_shaded(place_m)) {
         const double height_m = terrain_.height_m(place_m.x(), place_m.y()) + 0.02;
@@ -103,15 +104,17 @@ void World::shine(int threads) {
                    height_m + up_m;
         }
       }
-      light_.at(x, y) = lit(terrain_.slope(place_m, light_cell_m_), in_sun);
+      light_.at(x, y) = lit(terrain_.slope(place_m, light_cell_m), in_sun);
     }
   });
 }
 
 float World::light(double east_m, double north_m) const {
   const double limit = light_.side - 1.001;
-  const double x = std::clamp((east_m + terrain_.half_extent_m()) / light_cell_m_, 0.0, limit);
-  const double y = std::clamp((north_m + terrain_.half_extent_m()) / light_cell_m_, 0.0, limit);
+  const double x =
+      std::clamp((east_m + terrain_.half_extent_m()) * light_cells_per_metre_, 0.0, limit);
+  const double y =
+      std::clamp((north_m + terrain_.half_extent_m()) * light_cells_per_metre_, 0.0, limit);
   const int i = static_cast<int>(x);
   const int j = static_cast<int>(y);
   const auto a = static_cast<float>(x - i);
@@ -123,30 +126,30 @@ float World::light(double east_m, double north_m) const {
 float World::target_light(const Target& target) const { return lit(target.slope, true); }
 
 Eigen::Vector3f World::ground_colour(const Cell& cell, double east_m, double north_m,
-                                     double footprint_m) const {
+                                     const Footprint& footprint) const {
   const Eigen::Vector2d place_m(east_m, north_m);
   if (cell.box >= 0) {
     const Box& box = terrain_.features().boxes[static_cast<std::size_t>(cell.box)];
     if (box.outside_m(place_m) <= kBoxPaintMargin_m) {
-      const float worn = texture_.detail(east_m, north_m, footprint_m);
+      const float worn = texture_.detail(east_m, north_m, footprint);
       return box.colour * (1 + 0.3f * worn) * light(east_m, north_m);
     }
   }
-  return texture_.colour(east_m, north_m, footprint_m) * light(east_m, north_m);
+  return texture_.colour(east_m, north_m, footprint) * light(east_m, north_m);
 }
 
-Eigen::Vector3f World::colour(double east_m, double north_m, double footprint_m) const {
+Eigen::Vector3f World::colour(double east_m, double north_m, const Footprint& footprint) const {
   const Cell& here = cell(east_m, north_m);
-  if (here.target < 0) return ground_colour(here, east_m, north_m, footprint_m);
+  if (here.target < 0) return ground_colour(here, east_m, north_m, footprint);
   const Target& target = targets_[static_cast<std::size_t>(here.target)];
   const double radius_m = target.radius_at_m({east_m, north_m});
-  const float plate = covered(target.plate_radius_m(), radius_m, footprint_m);
-  if (plate <= 0) return ground_colour(here, east_m, north_m, footprint_m);
-  const float disc = covered(target.disc_radius_m, radius_m, footprint_m);
+  const float plate = covered(target.plate_radius_m(), radius_m, footprint.metres);
+  if (plate <= 0) return ground_colour(here, east_m, north_m, footprint);
+  const float disc = covered(target.disc_radius_m, radius_m, footprint.metres);
   const float grey = (kBlack + disc * (kWhite - kBlack)) * target_light(target);
   const Eigen::Vector3f painted = Eigen::Vector3f::Constant(grey);
   if (plate >= 1) return painted;
-  return plate * painted + (1 - plate) * ground_colour(here, east_m, north_m, footprint_m);
+  return plate * painted + (1 - plate) * ground_colour(here, east_m, north_m, footprint);
 }
 
 }  // namespace plumbline::sim

@@ -32,9 +32,8 @@ class World {
   const Terrain& terrain() const { return terrain_; }
   const std::vector<Target>& targets() const { return targets_; }
 
-  // Colour of the ground, red green blue 0..255, in sunlight. `footprint_m`: size of ground that
-  // the sample stands for.
-  Eigen::Vector3f colour(double east_m, double north_m, double footprint_m) const;
+  // Colour of the ground, red green blue 0..255, in sunlight.
+  Eigen::Vector3f colour(double east_m, double north_m, const Footprint& footprint) const;
 
  private:
   struct Cell {  // what lies in a square of ground; -1: nothing
@@ -47,7 +46,7 @@ class World {
   float target_light(const Target& target) const;
   const Cell& cell(double east_m, double north_m) const;
   Eigen::Vector3f ground_colour(const Cell& cell, double east_m, double north_m,
-                                double footprint_m) const;
+                                const Footprint& footprint) const;
 
   Terrain terrain_;
   std::vector<Target> targets_;
@@ -55,7 +54,7 @@ class World {
   std::vector<Cell> cells_;
   int cells_side_ = 0;
   Grid light_;  // 1: level ground in the sun
-  double light_cell_m_ = 0.1;
+  double light_cells_per_metre_ = 10;
 };
 
 }  // namespace plumbline::sim
