@@ -23,7 +23,8 @@ std::vector<Include> includes_of(std::string_view text);
 //   edge -> edge, and among its rooms only downwards; tests -> anything; nothing -> tests,
 //   firmware.
 // Only the program that flies the real devices includes drivers/*/, and only those that simulate or
-// replay include sim/. Includes name their header from the repository's root.
+// replay include sim/. Includes name their header from the repository's root,
+// but a test may name its neighbour.
 std::vector<Violation> wrong_arrows(const SourceFile& file);
 
 // Libraries outside the rooms that wrap them (OpenCV outside edge/image, Ceres outside tests, ...).

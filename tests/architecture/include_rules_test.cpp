@@ -93,7 +93,8 @@ TEST(WrongArrows, NothingButTestsIncludesTests) {
   EXPECT_TRUE(arrow_allowed("tests/sim/a_test.cpp", "tests/fakes.h"));
 }
 
-TEST(WrongArrows, HeadersAreNamedFromTheRoot) {
+TEST(WrongArrows, HeadersAreNamedFromTheRootExceptATestsNeighbour) {
+  EXPECT_TRUE(arrow_allowed("tests/sim/a_test.cpp", "small_flight.h"));
   EXPECT_FALSE(arrow_allowed("edge/base/parallel.cpp", "parallel.h"));
   EXPECT_FALSE(arrow_allowed("edge/orient/a.cpp", "../base/result.h"));
 }
