@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+#include "firmware/commands/measure_command.h"
+
+#include <algorithm>
+#include <memory>
+#include <thread>
+#include <utility>
+
+#include "edge/survey/check_points.h"
+#include "firmware/commands/adjustment_options.h"
+#include "firmware/commands/geo_inputs.h"
+#include "firmware/commands/measure_inputs.h"
+#include "firmware/commands/run_report.h"
+
+namespace plumbline::commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+// result/ in a flight; plumbline-result/ beside loose photos.
+fs::path default_out(const fs::path& first) {
+  if (!fs::is_directory(first)) return first.parent_path() / "plumbline-result";
+  return fs::is_directory(first / "photos") ? first / "result" : first / "plumbline-result";
+}
+
+deliver::Product product_of(const MeasureArguments& arguments, MeasureInputs inputs,
+                            survey::Survey survey) {
+  deliver::Product product;
+  product.title = title_of(arguments.photos.front());
+  product.problem = std::move(survey.problem);
+  product.solution = std::move(survey.solution);
+  product.options = arguments.options.adjustment;
+  product.counts = survey.counts;
+  product.counts.photos_given = inputs.photos_given;
+  product.origin = geo_origin(inputs.frame);
+  product.datum = arguments.datum;
+  product.warnings = std::move(inputs.warnings);
+  product.input_sha256 = std::move(inputs.sha256);
+  return product;
+}
+
+int run_measure(MeasureArguments arguments) {
+  RunReport report;
+  const Progress progress = report.progress();
+  if (arguments.threads == 0) {
+    arguments.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  }
+  arguments.options.ties.threads = arguments.threads;
+  auto inputs = read_measure_inputs(arguments, progress);
+  if (!inputs) return fail(inputs.error());
+  auto survey = survey::measure(inputs->survey, arguments.options, progress);
+  if (!survey) return fail(survey.error());
+  const auto known = std::move(inputs->check);
+  deliver::Product product = product_of(arguments, std::move(*inputs), std::move(*survey));
+  if (!known.empty()) {
+    auto check = survey::check(product.problem, product.solution, known);
+    if (!check) return fail(check.error());
+    product.check = std::move(*check);
+  }
+  const fs::path out =
+      arguments.out.empty() ? default_out(arguments.photos.front()) : arguments.out;
+  return deliver_result(product, report, out, arguments.json);
+}
+
+void add_known_options(CLI::App& sub, MeasureArguments& a) {
+  sub.add_option("--picks", a.picks,
+                 "CSV photo,point,u_px,v_px[,sigma_px]: points measured by hand; a point picked in "
+                 "one photo is found in the others");
+  sub.add_option("--length", a.lengths, "a known length between picks: A,B,METRES[,SIGMA]")
+      ->take_all()
+      ->allow_extra_args(false);
+  sub.add_option("--control", a.control, "CSV of known points, used in the adjustment");
+  sub.add_option("--check", a.check, "CSV of known points, compared and never used");
+}
+
+void add_gnss_options(CLI::App& sub, MeasureArguments& a) {
+  sub.add_option("--gnss", a.gnss,
+                 "receiver log for the positions: NMEA, RTKLIB .llh or .pos, or events .pos");
+  sub.add_option("--time-offset", a.time_offset,
+                 "GNSS time minus the camera's clock, seconds: S[,SIGMA]");
+  sub.add_option("--lever-arm", a.lever_arm, "antenna minus camera, metres: R,U,B[,SIGMA]");
+  sub.add_option("--lever-frame", a.lever_frame, "frame of the lever arm: photo or body")
+      ->check(CLI::IsMember({"photo", "body"}))
+      ->capture_default_str();
+  sub.add_option("--photo-heights", a.photo_heights,
+                 "what the heights in the photos are above: ellipsoidal, egm96, or the name of "
+                 "--geoid's model");
+  sub.add_option("--geoid", a.geoid, "geoid model for orthometric heights: .pgm or ISG text");
+  sub.add_option("--datum", a.datum, "name of the datum, written into the results")
+      ->capture_default_str();
+}
+
+}  // namespace
+
+void add_measure(CLI::App& app, int& status) {
+  auto a = std::make_shared<MeasureArguments>();
+  CLI::App* sub = app.add_subcommand("measure", "from photos to ground points with error bars");
+  sub->add_option("PHOTOS", a->photos, "photos, folders of photos, or a flight")->required();
+  sub->add_option("--out", a->out,
+                  "folder for the results (default: result/ in a flight, plumbline-result/ beside "
+                  "loose photos)");
+  sub->add_option("--camera", a->camera, "camera.toml (default: the flight's, else from EXIF)");
+  add_known_options(*sub, *a);
+  add_gnss_options(*sub, *a);
+  sub->add_option("--ties", a->options.ties.ties_wanted, "tie points wanted")
+      ->check(CLI::Range(50, 100000))
+      ->capture_default_str();
+  sub->add_option("--threads", a->threads, "0: as many as the machine has")
+      ->check(CLI::Range(0, 256));
+  sub->add_flag("--json", a->json, "print summary.json instead of the table");
+  add_adjustment_options(*sub, a->options.adjustment);
+  sub->footer(
+      "Example: plumbline measure photos/ --out result/\n"
+      "         plumbline measure flight/ --picks picks.csv --check check.csv\n"
+      "         plumbline measure photos/ --picks picks.csv --length A,B,14.831");
+  sub->callback([a, &status] { status = run_measure(*a); });
+}
+
+}  // namespace plumbline::commands
