@@ -15,7 +15,7 @@ constexpr double kSteepSlope =
     0.45;  // rays of 60 degrees off the vertical still meet once below it
 constexpr double kSteepReach_m = 5.0;
 constexpr double kTolerance_m = 2e-5;  // of a halving
-constexpr double kLastStep_m = 4e-4;    // of the secant: what remains is a tenth of it or less
+constexpr double kLastStep_m = 4e-4;   // of the secant: what remains is a tenth of it or less
 
 double east(const Terrain::Ray& ray, double z) {
   return ray.east_at_zero_m + z * ray.east_per_metre;
@@ -112,7 +112,8 @@ double Terrain::meet(const Ray& ray, double guess_m) const {
 
 double Terrain::march(const Ray& ray) const {
   const double sideways = std::max(std::hypot(ray.east_per_metre, ray.north_per_metre), 1e-3);
-  const double fine_m = std::min(0.8 * cell_m_ / sideways, 2.0);
+  // A corner cut shorter than this may be missed: less than a pixel of a photo.
+  const double fine_m = std::min(0.3 * cell_m_ / sideways, 2.0);
   const double coarse_m = std::min(0.5 * kCoarseCell_m / sideways, 2.0);
   double above_m = highest_m_ + 0.01;
   const double lowest_m = above_m - 1000;

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+#include "firmware/commands/sim_command.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace plumbline::commands {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+std::string text_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+class SimCommand : public testing::Test {
+ protected:
+  void SetUp() override {
+    folder =
+        fs::temp_directory_path() / ("sim_command_" + std::to_string(::getpid()) + "_" +
+                                     testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::create_directories(folder);
+    std::ofstream(folder / "small.toml")
+        << "from_m = 12\nto_m = 14\nstep_m = 2\nwidth_px = 320\nheight_px = 240\n"
+           "focal_length_px = 260\ntargets = 5\n";
+  }
+  void TearDown() override { fs::remove_all(folder); }
+
+  // The status as the program would end; what went to stderr is kept.
+  int run(std::vector<std::string> arguments) {
+    CLI::App app;
+    int status = -1;
+    add_sim(app, status);
+    std::reverse(arguments.begin(), arguments.end());
+    testing::internal::CaptureStderr();
+    testing::internal::CaptureStdout();
+    try {
+      app.parse(arguments);
+    } catch (const CLI::ParseError& error) {
+      status = error.get_exit_code() == 0 ? 0 : 2;
+    }
+    testing::internal::GetCapturedStdout();
+    told = testing::internal::GetCapturedStderr();
+    return status;
+  }
+  int run_small(const fs::path& out, std::vector<std::string> more = {}) {
+    std::vector<std::string> arguments{"sim", out.string(), "--profile",
+                                       (folder / "small.toml").string()};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  }
+
+  fs::path folder;
+  std::string told;
+};
+
+TEST_F(SimCommand, WritesPhotosCameraAndTruth) {
+  ASSERT_EQ(run_small(folder / "out", {"--side-step", "2"}), 0) << told;
+  for (const char* name :
+       {"photos/0001.jpg", "photos/0002.jpg", "photos/0003.jpg", "camera.toml", "truth/camera.toml",
+        "truth/photos.csv", "truth/picks.csv", "truth/check.csv", "truth/surface.asc"}) {
+    EXPECT_TRUE(fs::exists(folder / "out" / name)) << name;
+  }
+  EXPECT_FALSE(fs::exists(folder / "out/photos/0004.jpg"));
+}
+
+TEST_F(SimCommand, GivesTheSameBytesForTheSameSeedWithOneThreadOrTwo) {
+  ASSERT_EQ(run_small(folder / "a", {"--seed", "9", "--threads", "1"}), 0);
+  ASSERT_EQ(run_small(folder / "b", {"--seed", "9", "--threads", "2"}), 0);
+  ASSERT_EQ(run_small(folder / "c", {"--seed", "10"}), 0);
+  int files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder / "a")) {
+    if (!entry.is_regular_file()) continue;
+    const fs::path name = fs::relative(entry.path(), folder / "a");
+    EXPECT_EQ(text_of(entry.path()), text_of(folder / "b" / name)) << name;
+    ++files;
+    if (name == "truth/camera.toml") continue;  // the same lens on every flight
+    EXPECT_NE(text_of(entry.path()), text_of(folder / "c" / name)) << name;
+  }
+  EXPECT_EQ(files, 8);
+}
+
+TEST_F(SimCommand, DoesNotTouchAFolderThatHoldsFiles) {
+  fs::create_directories(folder / "mine");
+  std::ofstream(folder / "mine/notes.txt") << "keep";
+  EXPECT_EQ(run_small(folder / "mine"), 1);
+  EXPECT_THAT(told, HasSubstr("holds files already"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder / "mine"), {}), 1);
+}
+
+TEST_F(SimCommand, SaysWhereAProfileIsWrong) {
+  std::ofstream(folder / "small.toml") << "from_m = 12\nheigth = 3\n";
+  EXPECT_EQ(run_small(folder / "out"), 1);
+  EXPECT_THAT(told, HasSubstr("small.toml:2: 'heigth' is no key"));
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST_F(SimCommand, RefusesAProfileThatIsNeitherNameNorFile) {
+  EXPECT_EQ(run({"sim", (folder / "out").string(), "--profile", "moon"}), 1);
+  EXPECT_THAT(told, HasSubstr("'moon' is neither a profile"));
+}
+
+TEST_F(SimCommand, RefusesAGroundPhotoThatIsNone) {
+  std::ofstream(folder / "ground.jpg") << "no picture at all";
+  EXPECT_EQ(run_small(folder / "out", {"--texture", (folder / "ground.jpg").string()}), 1);
+  EXPECT_THAT(told, HasSubstr("ground.jpg"));
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
+TEST_F(SimCommand, CallsWrongOptionsWrongUsage) {
+  EXPECT_EQ(run_small(folder / "out", {"--fix", "good"}), 2);
+  EXPECT_EQ(run_small(folder / "out", {"--rtk", "0.005"}), 2);
+  EXPECT_EQ(run({"sim"}), 2);
+}
+
+TEST_F(SimCommand, ExplainsItselfWithAnExample) { EXPECT_EQ(run({"sim", "--help"}), 0); }
+
+}  // namespace
+}  // namespace plumbline::commands
