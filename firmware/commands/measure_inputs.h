@@ -10,6 +10,7 @@
 #include "edge/base/progress.h"
 #include "edge/base/result.h"
 #include "edge/geodesy/local_frame.h"
+#include "edge/survey/check_points.h"
 #include "edge/survey/survey.h"
 
 namespace plumbline::commands {
