@@ -10,9 +10,9 @@
 set(CMAKE_SYSTEM_NAME Linux)
 set(CMAKE_SYSTEM_PROCESSOR aarch64)
 
-if(NOT IS_DIRECTORY "$ENV{PLUMBLINE_SYSROOT}/usr/include")
+if("$ENV{PLUMBLINE_SYSROOT}" STREQUAL "" OR NOT IS_DIRECTORY "$ENV{PLUMBLINE_SYSROOT}/usr/include")
   message(FATAL_ERROR "PLUMBLINE_SYSROOT=\"$ENV{PLUMBLINE_SYSROOT}\" is not the root of an arm64 "
-                      "file system (no usr/include in it); see cmake/toolchain-arm64.cmake.")
+                      "file system with usr/include in it; see cmake/toolchain-arm64.cmake.")
 endif()
 get_filename_component(CMAKE_SYSROOT "$ENV{PLUMBLINE_SYSROOT}" ABSOLUTE)
 
