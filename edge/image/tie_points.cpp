@@ -57,8 +57,8 @@ std::vector<int> components(const std::vector<TieObservation>& observations, int
   return component;
 }
 
-TiePoints tie(const std::vector<PhotoLevels>& photos, const TieOptions& options,
-              const Progress& progress) {
+TiePoints tie_photos(const std::vector<PhotoLevels>& photos, const TieOptions& options,
+                     const Progress& progress) {
   const int count = static_cast<int>(photos.size());
   const auto tell = [&](const char* stage) {
     return [&progress, stage](int done, int total) {
@@ -71,7 +71,7 @@ TiePoints tie(const std::vector<PhotoLevels>& photos, const TieOptions& options,
   auto tracks = measure_tracks(photos, pairs, options, tell("measure tie points"));
   Eigen::Vector2d size_px(1, 1);
   for (const PhotoLevels& photo : photos) size_px = size_px.cwiseMax(photo.size_px());
-  take_tracks(thin_out(tracks, options.ties_wanted, count, size_px), ties);
+  take_tracks(choose_tracks(tracks, options.ties_wanted, count, size_px), ties);
   ties.component = components(ties.observations, count);
   return ties;
 }
@@ -85,7 +85,7 @@ Result<TiePoints> find_tie_points(const GreyImageSource& photos, int photo_count
     cv::setNumThreads(1);
     const auto loaded = load_photos(photos, photo_count, options.threads, progress);
     if (!loaded) return loaded.error();
-    return tie(*loaded, options, progress);
+    return tie_photos(*loaded, options, progress);
   } catch (const std::exception& error) {
     return Error{std::string("Measuring tie points failed inside a library (") + error.what() +
                  "); try with fewer or smaller photos."};

@@ -20,6 +20,7 @@ namespace {
 constexpr int kMargin_px = 16;
 // Of a cell's side: a corner this near an observation is taken to be measured already.
 constexpr double kTakenShare = 0.6;
+constexpr double kSameCorner_px = 4.0;
 
 struct Partner {
   int photo = 0;
@@ -117,6 +118,28 @@ class Measured {
   std::vector<std::vector<Eigen::Vector2d>> places_px_;
 };
 
+// The tracks with most photos first. Two references may each have found the same corner: the second
+// of such tracks is left out.
+std::vector<Track> without_repeats(const std::vector<Track>& tracks, int photo_count) {
+  std::vector<std::size_t> order(tracks.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return tracks[a].size() > tracks[b].size();
+  });
+  Measured measured(static_cast<std::size_t>(photo_count));
+  std::vector<Track> kept;
+  for (const std::size_t index : order) {
+    const Track& track = tracks[index];
+    const bool repeats = std::any_of(track.begin(), track.end(), [&](const TieObservation& one) {
+      return measured.near(one.photo, one.pixel, kSameCorner_px);
+    });
+    if (repeats) continue;
+    measured.add(track);
+    kept.push_back(track);
+  }
+  return kept;
+}
+
 std::vector<Track> measure_reference(const std::vector<PhotoLevels>& photos, int reference,
                                      const std::vector<Partner>& partners,
                                      const std::vector<Eigen::Vector2d>& corners,
@@ -194,29 +217,25 @@ std::vector<Track> measure_tracks(const std::vector<PhotoLevels>& photos,
   return tracks;
 }
 
-std::vector<Track> thin_out(const std::vector<Track>& tracks, int wanted, int photo_count,
-                            const Eigen::Vector2d& photo_size_px) {
-  if (static_cast<int>(tracks.size()) <= wanted) return tracks;
+std::vector<Track> choose_tracks(const std::vector<Track>& tracks, int wanted, int photo_count,
+                                 const Eigen::Vector2d& photo_size_px) {
   const CellGrid grid(photo_size_px, std::max(wanted / 20, 1));
   std::vector<int> taken(static_cast<std::size_t>(grid.count() * photo_count), 0);
-  std::vector<std::size_t> order(tracks.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return tracks[a].size() > tracks[b].size();
-  });
   const auto cell = [&](const TieObservation& one) {
     return static_cast<std::size_t>(one.photo * grid.count() + grid.cell_of(one.pixel));
   };
+  const std::vector<Track> candidates = without_repeats(tracks, photo_count);
+  std::vector<bool> used(candidates.size(), false);
   std::vector<Track> kept;
-  std::vector<bool> used(tracks.size(), false);
-  for (int most = 1; static_cast<int>(kept.size()) < wanted; ++most) {
-    for (const std::size_t index : order) {
-      const Track& track = tracks[index];
+  const auto goal = std::min(candidates.size(), static_cast<std::size_t>(std::max(wanted, 0)));
+  for (int most = 1; kept.size() < goal; ++most) {
+    for (std::size_t i = 0; i < candidates.size() && kept.size() < goal; ++i) {
+      const Track& track = candidates[i];
       const bool needed = std::any_of(track.begin(), track.end(), [&](const TieObservation& one) {
         return taken[cell(one)] < most;
       });
-      if (used[index] || !needed || static_cast<int>(kept.size()) >= wanted) continue;
-      used[index] = true;
+      if (used[i] || !needed) continue;
+      used[i] = true;
       for (const TieObservation& one : track) ++taken[cell(one)];
       kept.push_back(track);
     }

@@ -23,8 +23,9 @@ std::vector<Track> measure_tracks(const std::vector<PhotoLevels>& photos,
 std::vector<int> finest_first(const std::vector<PhotoLevels>& photos,
                               const std::vector<ScreenedPair>& pairs);
 
-// At most `wanted` of the tracks: those seen in more photos first, evenly over every photo.
-std::vector<Track> thin_out(const std::vector<Track>& tracks, int wanted, int photo_count,
-                            const Eigen::Vector2d& photo_size_px);
+// At most `wanted` of the tracks: those seen in more photos first, evenly over every photo, and
+// none that lies on a point of one already chosen.
+std::vector<Track> choose_tracks(const std::vector<Track>& tracks, int wanted, int photo_count,
+                                 const Eigen::Vector2d& photo_size_px);
 
 }  // namespace plumbline::image
