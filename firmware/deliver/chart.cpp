@@ -16,7 +16,7 @@ constexpr double kTop = 12;
 constexpr double kAxis = 40;
 constexpr double kStrip = 62;
 
-std::string length_words(double metres) {
+std::string bar_words(double metres) {
   if (metres >= 1000.0) return significant(metres / 1000.0, 1) + " km";
   return metres >= 1.0 ? fixed(metres, 0) + " m" : significant(metres, 1) + " m";
 }
@@ -78,7 +78,7 @@ void Chart::draw_scale_bar(Svg& svg) const {
   svg.rectangle(left, {0.5 * units, 5}, "bar");
   svg.rectangle(left + Place(0.5 * units, 0), {0.5 * units, 5}, "bar open");
   svg.text(left + Place(0, 21), "0", "tick middle");
-  svg.text(left + Place(units, 21), length_words(length_m), "tick middle");
+  svg.text(left + Place(units, 21), bar_words(length_m), "tick middle");
 }
 
 Box box_around(const std::vector<Eigen::Vector2d>& places, double outer_share) {

@@ -60,7 +60,7 @@ class Residuals {
     std::vector<double> lengths_px;
     for (const Panel& panel : panels_)
       for (const std::size_t k : panel.used) lengths_px.push_back(residual(k).norm());
-    factor_ = exaggeration(lengths_px, shrink_, 11, 1e9);
+    factor_ = exaggeration(lengths_px, shrink_, 8, 1e9);
   }
 
   Figure draw() const {

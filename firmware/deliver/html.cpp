@@ -14,13 +14,14 @@ std::string head_cell(const std::string& name, const std::string& style) {
   return element("th", inner, style);
 }
 
-std::string row_of(const std::vector<std::string>& cells, std::size_t text_columns, bool head) {
+std::string row_of(const std::vector<std::string>& cells, std::size_t text_columns, bool head,
+                   const std::string& row_style = "") {
   std::string inner;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     const std::string style = i < text_columns ? "" : "number";
     inner += head ? head_cell(cells[i], style) : element("td", escaped(cells[i]), style);
   }
-  return element("tr", inner) + "\n";
+  return element("tr", inner, row_style) + "\n";
 }
 
 }  // namespace
@@ -44,7 +45,9 @@ std::string list_of(const std::vector<std::string>& sentences, const std::string
 std::string html_table(const Table& table) {
   if (table.rows.empty()) return {};
   std::string rows;
-  for (const auto& row : table.rows) rows += row_of(row, table.text_columns, false);
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    rows += row_of(table.rows[i], table.text_columns, false,
+                   i + table.total_rows >= table.rows.size() ? "total" : "");
   const std::string inner =
       (table.caption.empty() ? "" : element("caption", escaped(table.caption))) +
       element("thead", row_of(table.head, table.text_columns, true)) + element("tbody", rows);

@@ -19,6 +19,7 @@ struct Table {
   std::string caption;
   std::vector<std::string> head;  // "name|unit": the unit is set on a line of its own
   std::vector<std::vector<std::string>> rows;
+  std::size_t total_rows = 0;    // so many at the end are totals, and stand out
   std::size_t text_columns = 1;  // from the left; the others are set as numbers, flush right
   std::string note;              // below the table
 };

@@ -48,7 +48,7 @@ std::string joined(const std::vector<std::string>& parts) {
 }
 
 std::string gnss_words(const Known& known) {
-  return "GNSS positions (sigma " + significant(known.station_sigma_m, 2) + " m)";
+  return "GNSS positions (sigma " + length_words(known.station_sigma_m) + ")";
 }
 
 std::string rests_on(const Known& known, bool lengths_help, bool heading_helps) {
@@ -68,33 +68,39 @@ bool named_unobservable(const Product& product, const std::string& name) {
 }
 
 // What the shape alone is good to: the median sigma about the best-fit frame, metres.
-double shape_sigma_m(const Product& product) {
+struct ShapeSigma {
+  double plan_m = 0;
+  double height_m = 0;
+};
+
+ShapeSigma shape_sigma(const Product& product) {
   const PointKinds kinds = point_kinds(product);
   const auto& points = kinds.named.empty() ? kinds.ties : kinds.named;
-  auto local = local_sigma_figures(product, points);
-  if (!local) local = sigma_figures(product, points);
-  return local ? local->median.head<2>().norm() / std::sqrt(2.0) : 0.0;
+  auto shape = local_sigma_figures(product, points);
+  if (!shape) shape = sigma_figures(product, points);
+  if (!shape) return {};
+  return {shape->median.head<2>().norm() / std::sqrt(2.0), shape->median.z()};
 }
 
-Trust trust_of(const Product& product, const std::string& name, double effect_m) {
+// `effect_m`: of the common error on a point; `shape_m`: what it is compared with.
+Trust trust_of(const Product& product, const std::string& name, double effect_m, double shape_m) {
   if (named_unobservable(product, name) || !std::isfinite(effect_m)) return Trust::kNotFixed;
-  const double limit_m = std::max(kGoverns * shape_sigma_m(product), kNegligibleM);
+  const double limit_m = std::max(kGoverns * shape_m, kNegligibleM);
   return effect_m > limit_m ? Trust::kRelativeOnly : Trust::kFixed;
 }
 
-std::string metres(double value_m) { return significant(value_m, 2) + " m"; }
-
 Reliance position(const Product& product, const Known& known) {
   const double sigma_m = product.solution.summary.common.position_m;
-  Reliance r{"Position of the whole", std::isfinite(sigma_m) ? metres(sigma_m) : "not fixed",
-             rests_on(known, false, false), trust_of(product, "position", sigma_m), ""};
+  Reliance r{"Position of the whole", std::isfinite(sigma_m) ? length_words(sigma_m) : "not fixed",
+             rests_on(known, false, false),
+             trust_of(product, "position", sigma_m, shape_sigma(product).plan_m), ""};
   if (!std::isfinite(sigma_m) || (known.stations == 0 && !known.control))
     r.meaning = "Coordinates hold only relative to each other: nothing ties them to the earth.";
   else if (r.trust == Trust::kFixed)
     r.meaning = "Coordinates may be used as they stand, within their sigmas.";
   else
     r.meaning = "Coordinates hold only relative to each other: all of them together may be " +
-                metres(sigma_m) + " (one sigma) away from where they are stated.";
+                length_words(sigma_m) + " (one sigma) away from where they are stated.";
   return r;
 }
 
@@ -103,17 +109,20 @@ Reliance turned(const Product& product, const Known& known, bool azimuth) {
   const double sigma_rad = azimuth ? common.azimuth_rad : common.tilt_rad;
   const double reach = std::max(reach_m(product), 1.0);
   const double effect_m = sigma_rad * reach;
-  const std::string at = " " + significant(reach, 2) + " m from the foot";
-  Reliance r{azimuth ? "Azimuth (turn about the vertical)" : "Tilt of the whole",
+  const ShapeSigma shape = shape_sigma(product);
+  const std::string at = " at " + fixed(reach, 0) + " m from the foot";
+  Reliance r{azimuth ? "Azimuth of the whole" : "Tilt of the whole",
              fixed_or(sigma_rad * kDegPerRad, 3, "not fixed"), rests_on(known, false, azimuth),
-             trust_of(product, azimuth ? "azimuth" : "tilt", effect_m), ""};
-  if (std::isfinite(sigma_rad)) r.sigma += " deg";
+             trust_of(product, azimuth ? "azimuth" : "tilt", effect_m,
+                      azimuth ? shape.plan_m : shape.height_m),
+             ""};
+  if (std::isfinite(sigma_rad)) r.sigma += "\xc2\xb0";
   const std::string what = azimuth ? "Bearings" : "Height differences across the area";
   if (r.trust == Trust::kFixed)
-    r.meaning = "Adds " + metres(effect_m) + at + ".";
+    r.meaning = "Moves a point by " + length_words(effect_m) + at + " (one sigma).";
   else if (r.trust == Trust::kRelativeOnly)
-    r.meaning = what + " are weak: a turn of the whole moves points by " + metres(effect_m) + at +
-                " (one sigma).";
+    r.meaning = what + " are weak: a turn of the whole moves a point by " + length_words(effect_m) +
+                at + " (one sigma).";
   else
     r.meaning = what + " must not be used: nothing fixes this turn of the whole well enough.";
   return r;
@@ -123,13 +132,14 @@ Reliance scale(const Product& product, const Known& known) {
   const double sigma = product.solution.summary.common.scale;
   const double effect_m = sigma * std::max(reach_m(product), 1.0);
   Reliance r{"Scale", std::isfinite(sigma) ? significant(100.0 * sigma, 2) + " %" : "not fixed",
-             rests_on(known, true, false), trust_of(product, "scale", effect_m), ""};
+             rests_on(known, true, false),
+             trust_of(product, "scale", effect_m, shape_sigma(product).plan_m), ""};
   if (r.trust == Trust::kNotFixed)
     r.meaning = "Lengths, areas and volumes must not be used: only ratios and angles hold.";
   else
     r.meaning = (r.trust == Trust::kFixed ? "A length of 10 m is good to "
                                           : "Lengths are weak: one of 10 m is good only to ") +
-                metres(10.0 * sigma) + " from scale.";
+                length_words(10.0 * sigma) + " from scale.";
   return r;
 }
 
@@ -150,7 +160,7 @@ Reliance height(const Product& product) {
   const double flying_m = product.solution.summary.flying_height_m;
   const bool lost = named_unobservable(product, "height") || !std::isfinite(sigma);
   Reliance r{"Height of a point (median)",
-             std::isfinite(sigma) ? metres(sigma * flying_m) : "not fixed",
+             std::isfinite(sigma) ? length_words(sigma * flying_m) : "not fixed",
              "parallax between the stations", lost ? Trust::kNotFixed : Trust::kFixed, ""};
   r.meaning = lost ? "Heights must not be used: the stations give too little parallax."
                    : "That is " + significant(100.0 * sigma, 2) + " % of the flying height.";

@@ -58,7 +58,8 @@ std::string check_section(const Product& product) {
 std::string body(const Product& product) {
   return report_header(product) + verdict_box(product) + key_figures(product) +
          section("What is not observable, and what to do about it", unobservable_section(product)) +
-         section("How far these figures may be relied upon", reliance_table(product)) +
+         section("How far these figures may be relied upon",
+                 element("div", reliance_table(product), "reliance")) +
          section("Warnings", list_of(all_warnings(product))) +
          section("Where the points are, and how well they are known", figures(product)) +
          section("Check points", check_section(product)) +

@@ -46,13 +46,13 @@ std::string cut_note(std::size_t all) {
 std::string trust_words(Trust trust) {
   switch (trust) {
     case Trust::kFixed:
-      return "good";
+      return "\xe2\x9c\x93 good";
     case Trust::kRelativeOnly:
-      return "relative only";
+      return "\xe2\x96\xb3 relative only";
     case Trust::kNotFixed:
       break;
   }
-  return "not observable";
+  return "\xe2\x9c\x95 not observable";
 }
 
 const orient::MeasuredPoint& point_of(const Product& product, int i) {
@@ -77,7 +77,10 @@ Row check_total(const std::string& name, const Eigen::Vector3d& total,
   Row row = {name};
   add_axes(row, total, 3);
   row.insert(row.end(), 3, "");
-  add_axes(row, best_fit.value_or(Eigen::Vector3d::Constant(std::nan(""))), 3);
+  if (best_fit)
+    add_axes(row, *best_fit, 3);
+  else
+    row.insert(row.end(), 3, "");
   return row;
 }
 
@@ -121,8 +124,9 @@ std::string check_table(const survey::CheckReport& check) {
     add_axes(row, check.best_fit_rmse_m ? point.best_fit_difference_m : unknown, 3);
     table.rows.push_back(row);
   }
+  table.total_rows = 2;
   table.rows.push_back(check_total("RMSE", check.rmse_m, check.best_fit_rmse_m));
-  table.rows.push_back(check_total("RMS of " + kSigma, check.rms_stated_sigma_m, std::nullopt));
+  table.rows.push_back(check_total("RMS of \xcf\x83", check.rms_stated_sigma_m, std::nullopt));
   return html_table(table);
 }
 

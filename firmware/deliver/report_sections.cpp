@@ -43,12 +43,6 @@ std::string card(const std::string& name, const std::string& value, const std::s
          "\n";
 }
 
-// Millimetres below 1 m, metres above.
-std::string length_words(double metres) {
-  if (!std::isfinite(metres)) return "unknown";
-  return metres < 1.0 ? significant(1000.0 * metres, 2) + " mm" : fixed(metres, 2) + " m";
-}
-
 std::string plan_words(const Eigen::Vector3d& value_m) {
   return length_words(std::max(value_m.x(), value_m.y()));
 }
@@ -92,13 +86,11 @@ std::string readable(std::string name) {
 
 std::string thresholds_note(const orient::Options& o) {
   return "A quantity is called not observable beyond these standard deviations: azimuth " +
-         significant(o.max_azimuth_sigma_deg, 3) + kDegree + ", tilt " +
-         significant(o.max_tilt_sigma_deg, 3) + kDegree + ", focal length " +
-         significant(100 * o.max_focal_length_sigma, 3) + " %, scale " +
-         significant(100 * o.max_scale_sigma, 3) + " %, height " +
-         significant(100 * o.max_height_sigma, 3) + " % of the flying height, position " +
-         significant(o.max_position_sigma_m, 3) + " m; or where the data take less than " +
-         significant(100 * o.min_variance_reduction, 3) +
+         plain(o.max_azimuth_sigma_deg) + kDegree + ", tilt " + plain(o.max_tilt_sigma_deg) +
+         kDegree + ", focal length " + plain(100 * o.max_focal_length_sigma) + " %, scale " +
+         plain(100 * o.max_scale_sigma) + " %, height " + plain(100 * o.max_height_sigma) +
+         " % of the flying height, position " + plain(o.max_position_sigma_m) +
+         " m; or where the data take less than " + plain(100 * o.min_variance_reduction) +
          " % off the variance of the assumption that alone carries it.";
 }
 
@@ -172,7 +164,7 @@ std::string adjustment_section(const Product& product) {
       fixed_or(summary.sigma0, 3, "unknown") + " with redundancy " +
       std::to_string(summary.redundancy) + ". " +
       counted(summary.observations_rejected, "observation was", "observations were") +
-      " rejected beyond " + significant(product.options.rejection_sigma, 2) +
+      " rejected beyond " + plain(product.options.rejection_sigma) +
       " sigma: not used, listed in observations.csv with used = 0.";
   const std::vector<std::string> missing = point_kinds(product).not_measured;
   std::string names;

@@ -54,6 +54,8 @@ th { padding: 5px 8px; border-bottom: 1.5px solid var(--ink); text-align: left;
 th .unit { color: var(--soft); font-weight: 400; }
 td { padding: 3.5px 8px; border-bottom: 1px solid var(--line); vertical-align: top; }
 tr { break-inside: avoid; }
+tr.total td { font-weight: 600; border-bottom-color: var(--ink); }
+.reliance td:nth-child(2), .reliance td:nth-child(4) { white-space: nowrap; }
 .number { text-align: right; white-space: nowrap; }
 .inputs td { font-family: "DejaVu Sans Mono", Menlo, Consolas, monospace; font-size: 10.5px;
   overflow-wrap: anywhere; }
@@ -79,7 +81,7 @@ svg .dots.named { stroke: var(--blue); stroke-width: 5; }
 svg .dots.tie { stroke: var(--grey); stroke-width: 2.6; }
 svg .climb { fill: none; stroke: var(--orange); stroke-width: 1.4; stroke-dasharray: 4 3; }
 svg .station { fill: var(--orange); stroke: #fff; stroke-width: 1; }
-svg .fan { fill: #c8500a0d; stroke: #c8500a66; stroke-width: .8; }
+svg .fan { fill: #c8500a08; stroke: #c8500a66; stroke-width: .8; }
 svg .height { stroke-width: 1.1; } svg .height.tie { stroke: #b4bec8; }
 svg .height.named { stroke: var(--blue); stroke-width: 1.5; }
 svg .north { fill: var(--ink); }

@@ -68,6 +68,19 @@ std::string significant(double value, int digits) {
   return fixed(value, std::clamp(digits - 1 - magnitude, 0, 15));
 }
 
+std::string plain(double value) {
+  std::string text = fixed(value, 6);
+  if (text.find('.') == std::string::npos) return text;
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text;
+}
+
+std::string length_words(double metres) {
+  if (!std::isfinite(metres)) return "unknown";
+  return std::abs(metres) < 1.0 ? significant(1000.0 * metres, 2) + " mm" : fixed(metres, 2) + " m";
+}
+
 std::string clean_utf8(std::string_view text) {
   std::string clean;
   while (!text.empty()) {

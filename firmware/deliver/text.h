@@ -16,6 +16,12 @@ std::string fixed_or(double value, int decimals, const std::string& otherwise);
 // With `digits` significant ones, in plain decimals: 0.00123, 45.1, 1230.
 std::string significant(double value, int digits);
 
+// As few decimals as say it to six: "5", "0.2", "3.7".
+std::string plain(double value);
+
+// For people: "33 mm" below 1 m (two significant digits), "2.93 m" above, "unknown".
+std::string length_words(double metres);
+
 // `text` as valid UTF-8: what is not becomes U+FFFD, control characters a blank.
 std::string clean_utf8(std::string_view text);
 

@@ -65,6 +65,17 @@ std::string accuracy_sentence(const Product& product) {
          ": " + per_axis(figures->median) + ".";
 }
 
+// Said where the frame of the whole, not the shape, governs the sigmas.
+std::string shape_sentence(const Product& product) {
+  const PointKinds kinds = point_kinds(product);
+  const auto& points = kinds.named.empty() ? kinds.ties : kinds.named;
+  const auto all = sigma_figures(product, points);
+  const auto shape = local_sigma_figures(product, points);
+  if (!all || !shape || all->median.norm() < 2.0 * shape->median.norm()) return {};
+  return "Of their shape alone, position, turn, tilt and scale of the whole set aside: " +
+         per_axis(shape->median) + ".";
+}
+
 std::string check_sentence(const Product& product) {
   if (!product.check) return "No check points were given: the accuracy is predicted, not verified.";
   const survey::CheckReport& check = *product.check;
@@ -73,9 +84,12 @@ std::string check_sentence(const Product& product) {
                ? "RMSE of the shape at " + std::to_string(check.points.size()) +
                      " check points: " + per_axis(*check.best_fit_rmse_m) + "."
                : std::string("The check points are in another frame, and too few for a best fit.");
-  return "RMSE at " +
-         counted(static_cast<long long>(check.points.size()), "check point", "check points") +
-         ": " + per_axis(check.rmse_m) + ".";
+  std::string words =
+      "RMSE at " +
+      counted(static_cast<long long>(check.points.size()), "check point", "check points") + ": " +
+      per_axis(check.rmse_m);
+  if (check.best_fit_rmse_m) words += "; after a best fit " + per_axis(*check.best_fit_rmse_m);
+  return words + ".";
 }
 
 std::string unobservable_names(const Product& product) {
@@ -113,7 +127,10 @@ std::string headline(const Product& product, Verdict::Level& level) {
 Verdict verdict(const Product& product) {
   Verdict made;
   made.headline = headline(product, made.level);
-  made.sentences = {accuracy_sentence(product), check_sentence(product)};
+  made.sentences = {accuracy_sentence(product)};
+  if (const std::string shape = shape_sentence(product); !shape.empty())
+    made.sentences.push_back(shape);
+  made.sentences.push_back(check_sentence(product));
   return made;
 }
 
