@@ -23,7 +23,7 @@ Result<Bytes> read_all(const std::filesystem::path& path, std::size_t max_bytes)
   std::ifstream in(path, std::ios::binary);
   if (!in) return cannot_read(path, errno != 0 ? std::strerror(errno) : "it cannot be opened");
   Bytes bytes;
-  std::vector<char> chunk(1u << 20);
+  std::vector<char> chunk(1u << 16);
   while (in.read(chunk.data(), static_cast<std::streamsize>(chunk.size())), in.gcount() > 0) {
     bytes.insert(bytes.end(), chunk.data(), chunk.data() + in.gcount());
     if (bytes.size() > max_bytes) {
