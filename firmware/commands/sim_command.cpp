@@ -133,6 +133,7 @@ void add_climb_options(CLI::App& sub, SimOptions& options) {
   sub.add_option("--side-step", options.side_steps_m,
                  "metres aside at the top; several (10,10): each turned 90 degrees; 0: none")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->check(CLI::Range(0.0, 500.0));
   sub.add_option("--side-direction", options.side_direction_deg,
                  "azimuth of the first side-step, degrees; random by default")

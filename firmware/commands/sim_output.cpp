@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <system_error>
 
 #include "edge/geodesy/local_frame.h"
@@ -64,7 +65,7 @@ deliver::PhotoTags tags_of(const sim::Flight& flight, const sim::Shot& shot,
   tags.focal_length_mm = profile.focal_length_px * profile.pixel_pitch_um * 1e-3;
   tags.gimbal_pitch_deg = -90.0;
   tags.gimbal_roll_deg = 0.0;
-  if (profile.heading) tags.gimbal_yaw_deg = shot.compass_deg;
+  if (profile.heading) tags.gimbal_yaw_deg = std::remainder(shot.compass_deg, 360.0);
   if (!profile.gnss) return tags;
   tags.position = position(profile, shot, frame);
   tags.height_above_start_m = shot.gnss_in_enu_m.z();

@@ -125,6 +125,14 @@ TEST_F(SimCommand, CallsWrongOptionsWrongUsage) {
   EXPECT_EQ(run({"sim"}), 2);
 }
 
+TEST_F(SimCommand, TakesListsOfFiguresWithTheFolderBehindThem) {
+  EXPECT_EQ(run({"sim", "--profile", (folder / "small.toml").string(), "--rtk", "0.01,0.02",
+                 "--side-step", "2,1", (folder / "out").string()}),
+            0)
+      << told;
+  EXPECT_TRUE(fs::exists(folder / "out/photos/0004.jpg"));
+}
+
 TEST_F(SimCommand, ExplainsItselfWithAnExample) { EXPECT_EQ(run({"sim", "--help"}), 0); }
 
 }  // namespace
