@@ -39,9 +39,9 @@ bool has_word(std::string text, const char* word) {
 
 PhotoFix fix_of(const Tags& tags) {
   const std::optional<double> flag = number_of(tags, "Xmp.drone-dji.RtkFlag");
-  // DJI: 0 none, 16 single, 34 float, 50 fixed; the sixteens between belong to the one below.
+  // DJI, Mavic 3 user manual: 0 none, 16 single, 32 to 49 float, 50 fixed.
   if (!flag) return PhotoFix::kNotSaid;
-  if (*flag >= 48) return PhotoFix::kFixed;
+  if (*flag >= 50) return PhotoFix::kFixed;
   if (*flag >= 32) return PhotoFix::kFloat;
   return *flag >= 1 ? PhotoFix::kSingle : PhotoFix::kNone;
 }
