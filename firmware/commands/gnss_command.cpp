@@ -227,7 +227,7 @@ void add_gnss(CLI::App& app, int& status) {
       ->required()
       ->type_name("PORT|FILE|-");
   gnss->add_option("--baud", arguments->baud, "Speed of a serial port; of no effect on files")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(300, 4000000));
   gnss->add_flag("--json", arguments->json, "One JSON object per position epoch, counters last");
   gnss->footer("Example: plumbline gnss flight.nmea --json | head -3");
   gnss->callback([arguments, &status] {
