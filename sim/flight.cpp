@@ -105,7 +105,7 @@ double azimuth_deg(const geometry::Pose& pose) {
 }
 
 std::string photo_name(std::size_t index) {
-  char text[24];
+  char text[32];
   std::snprintf(text, sizeof text, "%04zu.jpg", index + 1);
   return text;
 }

@@ -17,7 +17,7 @@ constexpr double kBoxClearance_m = 2.5;  // no target in a box's shadow
 constexpr int kTries = 400;
 
 std::string target_name(std::size_t index) {
-  char text[16];
+  char text[32];
   std::snprintf(text, sizeof text, "P%02zu", index + 1);
   return text;
 }
