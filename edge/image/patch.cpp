@@ -74,11 +74,14 @@ PhotoLevels make_levels(const Image& photo, int levels) {
 
 Window smoothed_window(const cv::Mat& photo, const Eigen::Vector2d& centre_px, double radius_px,
                        double sigma_px) {
+  Window window;
+  const bool near = centre_px.x() > -radius_px && centre_px.x() < photo.cols + radius_px &&
+                    centre_px.y() > -radius_px && centre_px.y() < photo.rows + radius_px;
+  if (!near) return window;
   const cv::Point low(static_cast<int>(std::floor(centre_px.x() - radius_px)),
                       static_cast<int>(std::floor(centre_px.y() - radius_px)));
   const int side = 2 * static_cast<int>(std::ceil(radius_px)) + 2;
   const cv::Rect piece = cv::Rect(low, cv::Size(side, side)) & cv::Rect({0, 0}, photo.size());
-  Window window;
   if (piece.width < 8 || piece.height < 8) return window;
   photo(piece).convertTo(window.values, CV_32F);
   if (sigma_px > 0.05) {

@@ -21,6 +21,9 @@ constexpr int kMargin_px = 16;
 // Of a cell's side: a corner this near an observation is taken to be measured already.
 constexpr double kTakenShare = 0.6;
 constexpr double kSameCorner_px = 4.0;
+// A point of two photos holds little against mistakes: it is taken where others are this much
+// rarer.
+constexpr int kPairsLater = 2;
 
 struct Partner {
   int photo = 0;
@@ -231,8 +234,9 @@ std::vector<Track> choose_tracks(const std::vector<Track>& tracks, int wanted, i
   for (int most = 1; kept.size() < goal; ++most) {
     for (std::size_t i = 0; i < candidates.size() && kept.size() < goal; ++i) {
       const Track& track = candidates[i];
+      const int limit = track.size() > 2 ? most : most - kPairsLater;
       const bool needed = std::any_of(track.begin(), track.end(), [&](const TieObservation& one) {
-        return taken[cell(one)] < most;
+        return taken[cell(one)] < limit;
       });
       if (used[i] || !needed) continue;
       used[i] = true;

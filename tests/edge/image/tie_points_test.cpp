@@ -238,6 +238,14 @@ TEST(TransferPicks, ReturnsNoPhotoInWhichThePointIsPickedAlready) {
   }
 }
 
+TEST(TransferPicks, LeavesOutPicksThatAreInNoPhoto) {
+  const std::vector<Pick> picks = {
+      {2, 1, {-50, 20}}, {2, 2, {1e9, -1e9}}, {2, 3, {std::nan(""), 5}}, {2, 4, {799.4, 0.2}}};
+  const auto found = transfer_picks(source_of(climb_photos()), 5, picks, climb_ties(), {600, 2, 1});
+  ASSERT_TRUE(found.ok());
+  EXPECT_TRUE(found->empty());
+}
+
 TEST(TransferPicks, LeavesOutAPointOfRepeatingTexture) {
   // A board of equal squares, smaller than any prediction is sure of, on the ground of both photos.
   const auto board = [](double shift_px, std::uint64_t seed) {
