@@ -21,6 +21,12 @@ std::string bar_words(double metres) {
   return metres >= 1.0 ? fixed(metres, 0) + " m" : significant(metres, 1) + " m";
 }
 
+// As nice_below(), with 3 as well: a factor need not divide a grid.
+double round_factor_below(double value) {
+  const double factor = nice_below(value);
+  return nice_below(value / 3.0) * 3.0 > factor ? nice_below(value / 3.0) * 3.0 : factor;
+}
+
 // Decimals that a coordinate at multiples of `step` needs.
 int decimals_for(double step) {
   return std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 6);
@@ -108,7 +114,7 @@ double exaggeration(const std::vector<double>& lengths_m, double units_per_metre
     if (std::isfinite(length) && length > 0.0) finite.push_back(length * units_per_metre);
   if (finite.empty()) return 1.0;
   const double largest = *std::max_element(finite.begin(), finite.end());
-  return nice_below(std::min(median_units / median_of(finite), largest_units / largest));
+  return round_factor_below(std::min(median_units / median_of(finite), largest_units / largest));
 }
 
 std::string exaggeration_words(double factor) {

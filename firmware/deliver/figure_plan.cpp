@@ -6,6 +6,7 @@
 #include "edge/base/units.h"
 #include "firmware/deliver/chart.h"
 #include "firmware/deliver/figures.h"
+#include "firmware/deliver/labels.h"
 #include "firmware/deliver/statistics.h"
 #include "firmware/deliver/text.h"
 
@@ -14,7 +15,6 @@ namespace {
 
 constexpr std::size_t kTieEllipses = 120;
 constexpr std::size_t kTieDots = 3000;
-constexpr std::size_t kLabels = 80;
 
 struct ErrorEllipse {
   Eigen::Vector2d semi_axes_m;  // larger first
@@ -40,7 +40,7 @@ class Plan {
     factor_ = exaggeration(lengths_m, chart_.units_per_metre(), 13, 70);
   }
 
-  Figure draw() const {
+  Figure draw() {
     Svg svg(chart_.full_width(), chart_.full_height(),
             "Plan of points with error ellipses and of photo stations");
     chart_.draw_grid(svg, "east (m)", "north (m)");
@@ -96,7 +96,7 @@ class Plan {
                 ellipse->turn_deg, style);
   }
 
-  void draw_points(Svg& svg) const {
+  void draw_points(Svg& svg) {
     std::vector<Place> ties;
     for (const int i : thinned(kinds_.ties, kTieDots))
       if (chart_.shows(plan_of(i))) ties.push_back(chart_.at(plan_of(i)));
@@ -106,10 +106,14 @@ class Plan {
     std::vector<Place> named;
     for (const int i : kinds_.named) named.push_back(chart_.at(plan_of(i)));
     svg.dots(named, "dots named");
-    for (std::size_t k = 0; k < named.size() && named.size() <= kLabels; ++k)
-      svg.text(named[k] + Place(5, -5),
-               product_.problem.point_names[static_cast<std::size_t>(kinds_.named[k])],
-               "label halo");
+    draw_names(svg, named);
+  }
+
+  void draw_names(Svg& svg, const std::vector<Place>& named) {
+    std::vector<std::string> names;
+    for (const int i : kinds_.named)
+      names.push_back(product_.problem.point_names[static_cast<std::size_t>(i)]);
+    nameless_ = draw_labels(svg, named, names);
   }
 
   void draw_stations(Svg& svg) const {
@@ -159,7 +163,8 @@ class Plan {
     if (kinds_.ties.size() > shown_ties_.size())
       words += " Ellipses of " + std::to_string(shown_ties_.size()) + " of " +
                std::to_string(kinds_.ties.size()) + " tie points.";
-    if (kinds_.named.size() > kLabels) words += " Too many named points to print their names.";
+    if (nameless_ > 0)
+      words += " " + counted(nameless_, "name", "names") + " left out for want of room.";
     return words;
   }
 
@@ -169,6 +174,7 @@ class Plan {
   Chart chart_;
   std::vector<int> shown_ties_;
   double factor_ = 1;
+  int nameless_ = 0;
 };
 
 }  // namespace

@@ -13,8 +13,9 @@ namespace {
 
 // Beyond so many times the sigma of the shape, a common error governs the absolute figures.
 constexpr double kGoverns = 3.0;
-// Common errors below this matter to nobody in this trade, however good the shape.
-constexpr double kNegligibleM = 0.005;
+// Common errors below this leave a coordinate usable as it stands (Japan's manual for surveys by
+// drone has position classes of 0.05, 0.10 and 0.20 m), however much better the shape is.
+constexpr double kUsableM = 0.10;
 
 struct Known {
   int stations = 0;
@@ -85,7 +86,7 @@ ShapeSigma shape_sigma(const Product& product) {
 // `effect_m`: of the common error on a point; `shape_m`: what it is compared with.
 Trust trust_of(const Product& product, const std::string& name, double effect_m, double shape_m) {
   if (named_unobservable(product, name) || !std::isfinite(effect_m)) return Trust::kNotFixed;
-  const double limit_m = std::max(kGoverns * shape_m, kNegligibleM);
+  const double limit_m = std::max(kGoverns * shape_m, kUsableM);
   return effect_m > limit_m ? Trust::kRelativeOnly : Trust::kFixed;
 }
 

@@ -133,7 +133,8 @@ std::string key_figures(const Product& product) {
            "flying height " + fixed_or(summary.flying_height_m, 1, "unknown") + " m") +
       ground_sample_card(product) +
       card("Named points", std::to_string(kinds.named.size()),
-           kinds.not_measured.empty()
+           kinds.named.empty() && kinds.not_measured.empty() ? "none given"
+           : kinds.not_measured.empty()
                ? "all measured"
                : std::to_string(kinds.not_measured.size()) + " more were not measured") +
       card("Tie points", std::to_string(counts.tie_points),
