@@ -27,7 +27,7 @@ enum class FixQuality {
 // One position epoch of a receiver, as it said it. Nothing here is corrected or guessed: what the
 // receiver did not say is empty.
 struct GnssFix {
-  std::optional<UtcTime> time;                          // absolute, when a date is known
+  std::optional<UtcTime> time;                           // absolute, when a date is known
   std::optional<std::chrono::microseconds> time_of_day;  // UTC, since midnight
   FixQuality quality = FixQuality::kNone;
   std::optional<double> latitude_deg;

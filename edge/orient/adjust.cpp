@@ -8,6 +8,7 @@
 #include "edge/orient/align.h"
 #include "edge/orient/blunders.h"
 #include "edge/orient/free_start.h"
+#include "edge/orient/image_correlation.h"
 #include "edge/orient/minimise.h"
 #include "edge/orient/solution_of.h"
 #include "edge/orient/validate.h"
@@ -115,11 +116,19 @@ class Adjustment {
       const double sigma_change = rescale_by_variance(network_, fits);
       const bool station_found = reject_station(terms, *covariance);
       const bool settled = changed == 0 && sigma_change < kSigmaSettled && !station_found;
-      if (settled || round + 1 == kMaxRounds) {
+      if ((settled || round + 1 >= kMaxRounds) && !widen_for_neighbours()) {
         return solution_of({network_, state_, terms_, *covariance, fits, iterations_, converged_},
                            options_);
       }
     }
+  }
+
+  // Once, at the end: true where the error bars of the ties had to be widened.
+  bool widen_for_neighbours() {
+    if (widened_) return false;
+    widened_ = true;
+    network_.ties_design_effect = image_correlation(network_, state_).design_effect;
+    return network_.ties_design_effect > 1;
   }
 
   int drop_far_points() {
@@ -153,6 +162,7 @@ class Adjustment {
   TermOptions terms_;
   int iterations_ = 0;
   bool converged_ = false;
+  bool widened_ = false;
 };
 
 }  // namespace

@@ -111,7 +111,8 @@ GroupFits group_fits(const Network& network, const NetworkCovariance& covariance
     if (!rays[k].active || !covariance.point(network.rays[k].point).measured) continue;
     GroupFit& fit = fits[name_of(network.rays[k].group)];
     const Eigen::Matrix2d q = covariance.pixel_covariance(network, network.rays[k], rays[k]);
-    fit.squares += rays[k].residual.squaredNorm() * rays[k].information;
+    const double sigma = network.rays[k].sigma_px;
+    fit.squares += rays[k].residual.squaredNorm() / (sigma * sigma);
     fit.redundancy += 2 - q.trace() * rays[k].information;
     fit.observations += 2;
   }

@@ -51,6 +51,8 @@ struct Network {
   std::vector<int> first_ray;      // of point p: rays [first_ray[p], first_ray[p + 1])
   // By point: its rays meet at so small an angle that its distance is anyone's guess.
   std::vector<bool> undetermined;
+  // By which the variance of ties grows for what neighbouring ones share.
+  double ties_design_effect = 1;
   Layout layout;
   // 1 for a parameter that is adjusted, 0 for one that is held fixed.
   geometry::InteriorVector interior_mask = geometry::InteriorVector::Ones();

@@ -17,8 +17,7 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Photo-frame point q = R' (P - C). For the increment R <- exp([d]x) R:
 // dq = R' (dP - dC) + R' [P - C]x dd.
-bool linearise(const Ray& ray, const State& state, const geometry::InteriorVector& mask,
-               RayLinear& out) {
+bool linearise(const Network& network, const Ray& ray, const State& state, RayLinear& out) {
   const geometry::Pose& pose = state.poses[at(ray.slot)];
   const Eigen::Vector3d from_centre = state.points[at(ray.point)] - pose.centre_m;
   const Eigen::Matrix3d photo_from_ground = pose.ground_from_photo.transpose();
@@ -26,10 +25,12 @@ bool linearise(const Ray& ray, const State& state, const geometry::InteriorVecto
       geometry::project_with_derivatives(state.interior, photo_from_ground * from_centre);
   if (!projection) return false;
   out.active = true;
-  out.information = 1 / (ray.sigma_px * ray.sigma_px);
+  const double effect = ray.group == ImageGroup::kTies ? network.ties_design_effect : 1;
+  out.information = 1 / (ray.sigma_px * ray.sigma_px * effect);
   out.residual = projection->pixel - ray.pixel;
   out.by_point.noalias() = projection->by_point * photo_from_ground;
-  out.by_common.leftCols<kInteriorCount>() = projection->by_interior * mask.asDiagonal();
+  out.by_common.leftCols<kInteriorCount>() =
+      projection->by_interior * network.interior_mask.asDiagonal();
   out.by_common.middleCols<3>(kInteriorCount) = -out.by_point;
   out.by_common.rightCols<3>().noalias() = out.by_point * geometry::cross_matrix(from_centre);
   return true;
@@ -185,7 +186,7 @@ RaysLinear linearise_rays(const Network& network, const State& state, double cau
   for (std::size_t k = 0; k < out.rays.size(); ++k) {
     if (!network.rays[k].used) continue;
     RayLinear& ray = out.rays[k];
-    if (!linearise(network.rays[k], state, network.interior_mask, ray)) {
+    if (!linearise(network, network.rays[k], state, ray)) {
       out.cost += robust_cost(kUnprojectableSigmas * kUnprojectableSigmas, cauchy_scale);
       continue;
     }

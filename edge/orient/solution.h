@@ -66,6 +66,7 @@ struct Summary {
   std::map<std::string, double>
       sigma0_by_group;  // ties, picks, stated, gnss, lengths, control, ...
   double image_sigma_px = 0;
+  double image_design_effect = 1;  // variances of ties were widened by it: neighbours err alike
   int redundancy = 0;
   int observations_rejected = 0;
   double reprojection_rms_px = 0;

@@ -10,6 +10,8 @@
 namespace plumbline::orient {
 namespace {
 
+constexpr double kWorthSaying = 1.2;
+
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 geometry::Camera adjusted_camera(const Finished& f) {
@@ -111,6 +113,17 @@ void summarise_fits(const Finished& f, Summary& summary) {
   summary.redundancy = static_cast<int>(std::lround(total.redundancy));
 }
 
+void warn_of_correlation(Summary& summary) {
+  const double widened = std::sqrt(summary.image_design_effect);
+  if (widened < kWorthSaying) return;
+  char sentence[256];
+  std::snprintf(sentence, sizeof sentence,
+                "Neighbouring tie points err alike (lens stabilisation, rolling shutter, shadows "
+                "or the like): the error bars were widened by %.1f to allow for it.",
+                widened);
+  summary.warnings.push_back(sentence);
+}
+
 void warn_of_rejected(const Finished& f, const Solution& solution, Summary& summary) {
   for (std::size_t i = 0; i < solution.photos.size(); ++i) {
     const OrientedPhoto& photo = solution.photos[i];
@@ -149,11 +162,13 @@ Solution solution_of(const Finished& f, const Options& options) {
   summary.iterations = f.iterations;
   summarise_images(f, solution, summary);
   summarise_fits(f, summary);
+  summary.image_design_effect = f.network.ties_design_effect;
   summary.flying_height_m = flying_height(f.network, f.state);
   const Evidence evidence{f.network, f.state, f.terms, f.covariance, frame};
   summary.common = common_sigmas(evidence, summary.flying_height_m);
   summary.unobservable = unobservable(evidence, summary.common, options);
   warn_of_rejected(f, solution, summary);
+  warn_of_correlation(summary);
   for (std::string& sentence : cautions(evidence, summary.common)) {
     summary.warnings.push_back(std::move(sentence));
   }

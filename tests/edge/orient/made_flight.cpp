@@ -46,9 +46,9 @@ class Maker {
     const double bow = plan_.drift_m * 4 * along * (1 - along);
     geometry::Pose pose;
     pose.centre_m = {plan_.drift_m * along + aside_m, bow, height_m};
-    pose.ground_from_photo = geometry::ground_from_photo(
-        {normal(plan_.tilt_sigma_deg * kRadPerDeg), normal(plan_.tilt_sigma_deg * kRadPerDeg),
-         yaw_rad + normal(1 * kRadPerDeg)});
+    pose.ground_from_photo = geometry::ground_from_photo({normal(plan_.tilt_sigma_deg * kRadPerDeg),
+                                                          normal(plan_.tilt_sigma_deg * kRadPerDeg),
+                                                          yaw_rad + normal(1 * kRadPerDeg)});
     flight_.poses.push_back(pose);
   }
 
@@ -98,17 +98,17 @@ class Maker {
   void observe() {
     for (std::size_t i = 0; i < flight_.poses.size(); ++i) {
       for (std::size_t p = 0; p < flight_.points.size(); ++p) {
-        const auto pixel = geometry::project(
-            flight_.interior, flight_.poses[i].ground_from_photo.transpose() *
-                                  (flight_.points[p] - flight_.poses[i].centre_m));
+        const auto pixel = geometry::project(flight_.interior,
+                                             flight_.poses[i].ground_from_photo.transpose() *
+                                                 (flight_.points[p] - flight_.poses[i].centre_m));
         if (!pixel || pixel->x() < 0 || pixel->y() < 0 || pixel->x() > 3999 || pixel->y() > 2249) {
           continue;
         }
         Eigen::Vector2d noise(normal(plan_.image_sigma_px), normal(plan_.image_sigma_px));
         if (uniform(0, 1) < plan_.gross_share) noise = gross();
         const double sigma = plan_.group == ImageGroup::kStated ? plan_.image_sigma_px : 1.0;
-        flight_.problem.observations.push_back({static_cast<int>(i), static_cast<int>(p),
-                                                *pixel + noise, sigma, plan_.group});
+        flight_.problem.observations.push_back(
+            {static_cast<int>(i), static_cast<int>(p), *pixel + noise, sigma, plan_.group});
       }
     }
   }
