@@ -46,7 +46,7 @@ Pair make_pair(double scale, double turn_deg, double noise_grey, int jpeg_qualit
   const Eigen::Vector2d middle(kSide_px / 2.0, kSide_px / 2.0);
   pair.shift = middle + Eigen::Vector2d(0.37, -0.21) - pair.jacobian * middle;
   const Eigen::Matrix2d back = pair.jacobian.inverse();
-  Sensor sensor{kSide_px, kSide_px, 0.5, noise_grey, seed};
+  Sensor sensor{kSide_px, kSide_px, 0.5, noise_grey, seed, 3};
   const auto ground = [&](const Eigen::Vector2d& first_px) {
     return texture.grey(kGroundPixel_m * first_px.x(), kGroundPixel_m * first_px.y());
   };

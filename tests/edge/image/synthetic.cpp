@@ -74,9 +74,10 @@ Image expose(const GreyAt& grey, const Sensor& sensor) {
   for (int v = 0; v < sensor.height_px; ++v) {
     for (int u = 0; u < sensor.width_px; ++u) {
       double sum = 0;
-      for (int k = 0; k < 9; ++k)
-        sum += grey(Eigen::Vector2d(u + (k % 3 - 1) / 3.0, v + (k / 3 - 1) / 3.0));
-      values.at<float>(v, u) = static_cast<float>(sum / 9);
+      const int n = sensor.samples;
+      for (int k = 0; k < n * n; ++k)
+        sum += grey({u + (k % n + 0.5) / n - 0.5, v + (k / n + 0.5) / n - 0.5});
+      values.at<float>(v, u) = static_cast<float>(sum / (n * n));
     }
   }
   if (sensor.blur_px > 0) cv::GaussianBlur(values, values, {0, 0}, sensor.blur_px);

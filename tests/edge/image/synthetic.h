@@ -33,9 +33,10 @@ struct Sensor {
   double blur_px = 0.5;    // Gaussian, added to the square pixel
   double noise_grey = 2;   // one standard deviation
   std::uint64_t seed = 1;  // of the noise
+  int samples = 2;         // across a pixel
 };
 
-// Square pixels by 3 x 3 supersampling, then blur, noise and rounding to 8 bits.
+// Square pixels by supersampling, then blur, noise and rounding to 8 bits.
 Image expose(const GreyAt& grey, const Sensor& sensor);
 
 // Out and back through a JPEG file.
@@ -50,7 +51,7 @@ struct Station {
 };
 
 struct Scene {
-  Texture texture{1, 8.0, 0.02};
+  Texture texture{1, 8.0, 0.03};
   double relief_m = 1.5;  // amplitude of hills some 15 m across
   double focal_px = 800;
   double radial_k1 = -0.02;
