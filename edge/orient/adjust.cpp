@@ -27,8 +27,15 @@ constexpr int kCrudeIterations = 30;
 constexpr double kCrudeTolerance = 1e-4;
 constexpr double kRobustTolerance = 1e-6;
 constexpr double kFinalTolerance = 1e-11;
-// Photos whose largest separation is below this share of the flying height stand on one place.
-constexpr double kLeastBase = 0.005;
+// Photos whose largest separation is below this share of the flying height stand on one place: of
+// less, image noise alone makes as much.
+constexpr double kLeastBase = 0.02;
+// Heights worse than this share of the flying height (median sigma) are none.
+constexpr double kWorstHeight = 0.5;
+// A camera that the photos ask for, against all that is known of it, is asked for by image errors
+// that no camera model explains: ties lose weight until both agree.
+constexpr int kMaxWidenings = 12;
+constexpr double kSignificantSigmas = 3;
 constexpr int kMaxRounds = 12;
 constexpr double kSigmaSettled = 0.002;
 
@@ -44,13 +51,13 @@ class Adjustment {
 
   Result<Solution> run() {
     orient_freely();
-    if (!has_base()) {
-      return Error{
-          "All photos were taken from (nearly) the same place, so no height can be "
-          "measured; photos from different heights, or a side-step, are needed."};
-    }
+    if (!has_base()) return no_base();
     orient_onto_known();
-    return finish();
+    auto solution = finish();
+    if (!solution) return solution;
+    const Summary& summary = solution->summary;
+    if (!(summary.flying_height_m > 0) || !(summary.common.height < kWorstHeight)) return no_base();
+    return solution;
   }
 
  private:
@@ -71,6 +78,12 @@ class Adjustment {
       minimise_from(start, {scale, kCrudeIterations, kCrudeTolerance});
       rescale_by_median(network_, state_);
     }
+  }
+
+  static Error no_base() {
+    return {
+        "All photos were taken from (nearly) the same place, so no height can be measured; "
+        "photos from different heights, or a side-step, are needed."};
   }
 
   bool has_base() const {
@@ -116,19 +129,33 @@ class Adjustment {
       const double sigma_change = rescale_by_variance(network_, fits);
       const bool station_found = reject_station(terms, *covariance);
       const bool settled = changed == 0 && sigma_change < kSigmaSettled && !station_found;
-      if ((settled || round + 1 >= kMaxRounds) && !widen_for_neighbours()) {
+      if ((settled || round + 1 >= kMaxRounds) && !widen(fits)) {
         return solution_of({network_, state_, terms_, *covariance, fits, iterations_, converged_},
                            options_);
       }
     }
   }
 
-  // Once, at the end: true where the error bars of the ties had to be widened.
-  bool widen_for_neighbours() {
-    if (widened_) return false;
-    widened_ = true;
-    network_.ties_design_effect = image_correlation(network_, state_).design_effect;
-    return network_.ties_design_effect > 1;
+  // At the end: true where the error bars of the ties had to be widened (once more).
+  bool widen(const GroupFits& fits) {
+    double effect = 1;
+    if (widenings_ == 0) {
+      effect = image_correlation(network_, state_).design_effect;
+    } else if (const auto camera = fits.find("camera"); camera != fits.end()) {
+      const GroupFit& fit = camera->second;
+      const double expected = fit.redundancy + kSignificantSigmas * std::sqrt(2 * fit.redundancy);
+      if (fit.redundancy > 0 && fit.squares > expected)
+        effect = std::sqrt(fit.squares / fit.redundancy);
+    }
+    const bool again = widenings_ == 0 || effect > 1;
+    if (!has_ties() || !again || widenings_++ == kMaxWidenings) return false;
+    network_.ties_design_effect *= effect;
+    return true;
+  }
+
+  bool has_ties() const {
+    return std::any_of(network_.rays.begin(), network_.rays.end(),
+                       [](const Ray& ray) { return ray.group == ImageGroup::kTies; });
   }
 
   int drop_far_points() {
@@ -162,7 +189,7 @@ class Adjustment {
   TermOptions terms_;
   int iterations_ = 0;
   bool converged_ = false;
-  bool widened_ = false;
+  int widenings_ = 0;
 };
 
 }  // namespace

@@ -116,10 +116,11 @@ void summarise_fits(const Finished& f, Summary& summary) {
 void warn_of_correlation(Summary& summary) {
   const double widened = std::sqrt(summary.image_design_effect);
   if (widened < kWorthSaying) return;
-  char sentence[256];
+  char sentence[320];
   std::snprintf(sentence, sizeof sentence,
-                "Neighbouring tie points err alike (lens stabilisation, rolling shutter, shadows "
-                "or the like): the error bars were widened by %.1f to allow for it.",
+                "Image errors are alike where points are near each other (lens stabilisation, "
+                "rolling shutter, shadows or the like), or ask for a camera against what is known "
+                "of it: the error bars of ties were widened by %.1f to allow for it.",
                 widened);
   summary.warnings.push_back(sentence);
 }

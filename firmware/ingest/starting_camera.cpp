@@ -73,19 +73,19 @@ Focal focal_of(const PhotoRecord& photo) {
 void set_sigmas(Camera& camera, double focal_sigma) {
   const double long_px = std::max(camera.width_px, camera.height_px);
   camera.sigma[geometry::kFocalLength] = focal_sigma * camera.interior[geometry::kFocalLength];
-  // Sensor and lens are centred to 1 % of the side, a few tens of pixels.
-  camera.sigma[geometry::kPrincipalU] = camera.sigma[geometry::kPrincipalV] = 0.0075 * long_px;
+  // Sensor and lens are centred to 1 to 2 % of the side, tens of pixels.
+  camera.sigma[geometry::kPrincipalU] = camera.sigma[geometry::kPrincipalV] = 0.015 * long_px;
   // Pixels are square and rows are straight to the lithography of the chip; what is left here is
   // the tilt and the shift of the optics.
-  camera.sigma[geometry::kAffinity] = 2e-4;
-  camera.sigma[geometry::kSkew] = 2e-4;
+  camera.sigma[geometry::kAffinity] = 5e-4;
+  camera.sigma[geometry::kSkew] = 5e-4;
   // Barrel of a few per cent at the corner; what drones correct in the camera is less.
   camera.sigma[geometry::kRadial1] = 0.1;
   camera.sigma[geometry::kRadial2] = 0.1;
   // Not told from k2 by a few photos of flat ground.
   camera.sigma[geometry::kRadial3] = 0;
-  // Decentring is a tenth to a hundredth of the radial part.
-  camera.sigma[geometry::kTangential1] = camera.sigma[geometry::kTangential2] = 1e-3;
+  // Decentring is a tenth to a hundredth of the radial part; retracting lenses show most.
+  camera.sigma[geometry::kTangential1] = camera.sigma[geometry::kTangential2] = 3e-3;
 }
 
 std::string sentence_of(const Focal& focal) {

@@ -22,6 +22,8 @@ const Vector3d kFloatM(0.3, 0.3, 0.6);
 // al. 2005, J. Forestry 103, 169-173; P. Zandbergen and S. Barbeau 2011, J. Navigation 64,
 // 381-399).
 const Vector3d kSingleM(3, 3, 6);
+// Of a camera that does not say: a receiver of its own, without a clear view, at the worse end.
+const Vector3d kUnsaidM(4, 4, 8);
 
 // Without fixed ambiguities most of the error is common to the minutes of a flight (orbits, clocks,
 // ionosphere, the ambiguities themselves), some drifts in tens of seconds (multipath, and the
@@ -29,6 +31,9 @@ const Vector3d kSingleM(3, 3, 6);
 // parts of the sigma of one position:
 constexpr double kCommonPart = 1.0;
 constexpr double kDriftPart = 1.0 / 2;
+// A camera's own receiver smooths so much that in a climb it may report half of it: its error
+// moves as far as it is large.
+constexpr double kUnsaidDriftPart = 1.0;
 constexpr double kWhitePart = 1.0 / 3;
 constexpr double kDriftS = 30;
 
@@ -37,6 +42,7 @@ bool is_fixed(const PhotoPosition* position) { return position->fix == PhotoFix:
 Vector3d sigma_m(const PhotoPosition* position) {
   if (position->sigma_enu_m) return *position->sigma_enu_m;
   if (is_fixed(position)) return kFixedM;
+  if (position->fix == PhotoFix::kNotSaid) return kUnsaidM;
   return position->fix == PhotoFix::kFloat ? kFloatM : kSingleM;
 }
 
@@ -53,8 +59,11 @@ StationSigmas without_fixed(const std::vector<const PhotoPosition*>& positions, 
   StationSigmas result;
   std::transform(positions.begin(), positions.end(), std::back_inserter(result.white_m), sigma_m);
   const Vector3d usual_m = rms(result.white_m);
-  const double drift = times_known ? kDriftPart : 0;
-  const double white = times_known ? kWhitePart : std::hypot(kWhitePart, kDriftPart);
+  const bool unsaid = std::ranges::any_of(
+      positions, [](const auto* position) { return position->fix == PhotoFix::kNotSaid; });
+  const double moving = unsaid ? kUnsaidDriftPart : kDriftPart;
+  const double drift = times_known ? moving : 0;
+  const double white = times_known ? kWhitePart : std::hypot(kWhitePart, moving);
   for (Vector3d& sigma : result.white_m) sigma *= white;
   result.common = {kCommonPart * in_plan(usual_m), kCommonPart * usual_m.z(),
                    times_known ? kDriftS : 0, drift * in_plan(usual_m), drift * usual_m.z()};
@@ -66,9 +75,10 @@ StationSigmas without_fixed(const std::vector<const PhotoPosition*>& positions, 
   result.warnings.push_back(
       std::string("The photos' positions are ") +
       (floating ? "float RTK solutions" : "single fixes, not RTK ones") +
-      ": an error common to all of " + figures +
-      " was taken, with drift of half and noise of a third of it. Absolute position, and scale "
-      "where no length or control is given, rest on them alone.");
+      ": an error common to all of " + figures + " was taken, with drift of " +
+      (unsaid ? "as much" : "half") +
+      " and noise of a third of it. Absolute position, and scale where no length or control is "
+      "given, rest on them alone.");
   return result;
 }
 

@@ -65,7 +65,7 @@ TEST(Stations, OfSingleFixesShareAnOffsetAndADrift) {
   const auto stations =
       stations_of(climb(PhotoFix::kSingle, std::nullopt, HeightKind::kEllipsoidal), {});
   EXPECT_NEAR(stations->gnss.offset_sigma_horizontal_m, 3, 1e-9);
-  EXPECT_NEAR(stations->gnss.offset_sigma_vertical_m, 6, 1e-9);
+  EXPECT_NEAR(stations->gnss.offset_sigma_vertical_m, 8, 1e-9);
   EXPECT_NEAR(stations->gnss.correlated_sigma_vertical_m, 3, 1e-9);
   EXPECT_GT(stations->gnss.correlation_s, 0);
   EXPECT_NEAR(white(*stations, 0), 1, 1e-6);
@@ -97,13 +97,13 @@ TEST(Stations, OfAMixedFlightWeighTheBadOnesLess) {
 TEST(Stations, WhoseHeightSystemNobodySaysShareFiftyMetres) {
   const auto photos = climb(PhotoFix::kNotSaid, std::nullopt, HeightKind::kUnknown);
   const auto assumed = stations_of(photos, {});
-  EXPECT_NEAR(assumed->gnss.offset_sigma_vertical_m, std::hypot(50, 6), 1e-9);
+  EXPECT_NEAR(assumed->gnss.offset_sigma_vertical_m, std::hypot(50, 8), 1e-9);
   EXPECT_FALSE(assumed->absolute_height_known);
   EXPECT_THAT(assumed->warnings, Contains(HasSubstr("--photo-heights")));
   StationOptions said;
   said.photo_heights = "ellipsoidal";
   const auto stated = stations_of(photos, said);
-  EXPECT_NEAR(stated->gnss.offset_sigma_vertical_m, 6, 1e-9);
+  EXPECT_NEAR(stated->gnss.offset_sigma_vertical_m, 8, 1e-9);
   EXPECT_TRUE(stated->absolute_height_known);
 }
 
