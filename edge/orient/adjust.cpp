@@ -16,8 +16,6 @@
 namespace plumbline::orient {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 // Cauchy scales in sigmas, annealed from crude to sharp.
 constexpr double kCrude[] = {100, 20, 6};
 constexpr double kSharp[] = {6, 2.5};

@@ -13,8 +13,6 @@
 namespace plumbline::orient {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 constexpr int kAzimuthTrials = 72;
 constexpr int kReweightings = 5;
 constexpr double kCauchySigmas = 3;

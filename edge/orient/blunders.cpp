@@ -12,8 +12,6 @@
 namespace plumbline::orient {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 constexpr double kMedianOfChiSquare2 = 1.3863;  // 2 ln 2
 constexpr double kLeastSigmaPx = 1e-3;          // noise-free input must not divide by zero
 constexpr double kStationChiSquare3 = 16.27;    // 0.1 %

@@ -7,8 +7,6 @@
 namespace plumbline::orient {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 // Scaled to a unit diagonal first, since metres, radians and k3 differ by many powers of ten.
 std::optional<Eigen::MatrixXd> inverse_of(const Eigen::MatrixXd& reduced) {
   const Eigen::VectorXd scale = reduced.diagonal().cwiseSqrt().cwiseInverse();

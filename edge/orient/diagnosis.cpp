@@ -13,8 +13,6 @@
 namespace plumbline::orient {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Stations with a white sigma beyond this are no surveying evidence for scale and position.
 constexpr double kPoorStationM = 0.5;

@@ -12,8 +12,6 @@
 namespace plumbline::orient {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 // Relief, tilt and distortion move a point off the similarity by a few per cent of the picture.
 constexpr double kToleranceOfWidth = 0.05;
 

@@ -9,8 +9,6 @@
 namespace plumbline::orient {
 namespace {
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 using Matrix3x7 = Eigen::Matrix<double, 3, 7>;
 using Matrix7 = Eigen::Matrix<double, 7, 7>;
 

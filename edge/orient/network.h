@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "edge/base/result.h"
+#include "edge/base/index.h"
 #include "edge/orient/problem.h"
 
 namespace plumbline::orient {

@@ -13,8 +13,6 @@ namespace {
 
 using geometry::kInteriorCount;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 // Photo-frame point q = R' (P - C). For the increment R <- exp([d]x) R:
 // dq = R' (dP - dC) + R' [P - C]x dd.
 bool linearise(const Network& network, const Ray& ray, const State& state, RayLinear& out) {

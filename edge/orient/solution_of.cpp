@@ -12,8 +12,6 @@ namespace {
 
 constexpr double kWorthSaying = 1.2;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
 geometry::Camera adjusted_camera(const Finished& f) {
   geometry::Camera camera = f.network.problem->camera;
   camera.interior = f.state.interior;

@@ -5,50 +5,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "edge/geometry/rotation.h"
 #include "edge/orient/camera_prior.h"
+#include "edge/orient/datum_terms.h"
+#include "edge/orient/term_parts.h"
 
 namespace plumbline::orient {
 namespace {
 
 using geometry::kInteriorCount;
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-// Numerically tight, yet far from the limits of double precision beside the image rays.
-constexpr double kDatumSigmaM = 1e-5;
-constexpr double kDatumSigmaRad = 1e-6;
-constexpr double kDatumSigmaScale = 1e-6;
-// An azimuth that nobody knows is uniform over the circle.
-constexpr double kUniformAzimuthRad = std::numbers::pi / std::numbers::sqrt3;
 // Headings share one compass; this part of its sigma is taken as new in each photo.
 constexpr double kOwnHeadingShare = 0.2;
 constexpr double kLeastSigmaM = 1e-4;
-
-double wrapped(double angle_rad) { return std::remainder(angle_rad, 2 * std::numbers::pi); }
-
-geometry::OmegaPhiKappa angles(const State& state, int slot) {
-  return geometry::angles_of(state.poses[at(slot)].ground_from_photo);
-}
-
-Eigen::Matrix3d angles_by_increment(const State& state, int slot) {
-  return geometry::angles_by_ground_increment(angles(state, slot));
-}
-
-std::vector<int> range(int first, int count) {
-  std::vector<int> columns(at(count));
-  for (int i = 0; i < count; ++i) columns[at(i)] = first + i;
-  return columns;
-}
-
-Term scalar_term(const char* group, std::vector<int> columns, double residual, double sigma) {
-  Term term{group, std::move(columns), Eigen::VectorXd::Constant(1, residual), {}, {}};
-  term.jacobian.setZero(1, static_cast<Eigen::Index>(term.columns.size()));
-  term.information = Eigen::MatrixXd::Constant(1, 1, 1 / (sigma * sigma));
-  return term;
-}
 
 Term camera_term(const Network& network, const State& state, const TermOptions& options) {
   Term term{"camera", range(0, kInteriorCount), {}, {}, {}};
@@ -166,91 +136,6 @@ void add_control(const Network& network, const State& state, std::vector<Term>& 
   }
 }
 
-// Inner constraints on the camera stations: what the network cannot know of itself stays, on the
-// whole, where it started.
-void add_translation_datum(const Network& network, const State& state, const State& start,
-                           std::vector<Term>& terms) {
-  const int slots = network.slots();
-  Term term{"datum", {}, Eigen::Vector3d::Zero(), {}, {}};
-  term.jacobian.setZero(3, 3 * slots);
-  for (int slot = 0; slot < slots; ++slot) {
-    for (int i = 0; i < 3; ++i) term.columns.push_back(network.layout.photo(slot) + i);
-    term.residual += (state.poses[at(slot)].centre_m - start.poses[at(slot)].centre_m) / slots;
-    term.jacobian.block<3, 3>(0, 3 * slot) = Eigen::Matrix3d::Identity() / slots;
-  }
-  term.information = Eigen::Matrix3d::Identity() / (kDatumSigmaM * kDatumSigmaM);
-  terms.push_back(std::move(term));
-}
-
-void add_azimuth_datum(const Network& network, const State& state, const State& start,
-                       double sigma_rad, std::vector<Term>& terms) {
-  const int slots = network.slots();
-  std::vector<int> columns;
-  Eigen::RowVectorXd jacobian(3 * slots);
-  double residual = 0;
-  for (int slot = 0; slot < slots; ++slot) {
-    for (int i = 0; i < 3; ++i) columns.push_back(network.layout.photo(slot) + 3 + i);
-    residual += wrapped(angles(state, slot).kappa_rad - angles(start, slot).kappa_rad) / slots;
-    jacobian.segment<3>(3 * slot) = angles_by_increment(state, slot).row(2) / slots;
-  }
-  Term term = scalar_term("datum", std::move(columns), residual, sigma_rad);
-  term.jacobian = jacobian;
-  terms.push_back(std::move(term));
-}
-
-Eigen::Vector3d mean_centre(const State& state) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const geometry::Pose& pose : state.poses) sum += pose.centre_m;
-  return sum / static_cast<double>(state.poses.size());
-}
-
-double spread(const State& state) {
-  const Eigen::Vector3d mean = mean_centre(state);
-  double sum = 0;
-  for (const geometry::Pose& pose : state.poses) sum += (pose.centre_m - mean).squaredNorm();
-  return std::sqrt(sum);
-}
-
-void add_scale_datum(const Network& network, const State& state, const State& start,
-                     std::vector<Term>& terms) {
-  const double at_start = std::max(spread(start), 1e-9);
-  const double now = std::max(spread(state), 1e-9);
-  const Eigen::Vector3d mean = mean_centre(state);
-  std::vector<int> columns;
-  Eigen::RowVectorXd jacobian(3 * network.slots());
-  for (int slot = 0; slot < network.slots(); ++slot) {
-    for (int i = 0; i < 3; ++i) columns.push_back(network.layout.photo(slot) + i);
-    jacobian.segment<3>(3 * slot) =
-        (state.poses[at(slot)].centre_m - mean).transpose() / (now * at_start);
-  }
-  Term term = scalar_term("datum", std::move(columns), now / at_start - 1, kDatumSigmaScale);
-  term.jacobian = jacobian;
-  terms.push_back(std::move(term));
-}
-
-int kept_control(const Network& network) {
-  return static_cast<int>(std::count_if(
-      network.problem->control.begin(), network.problem->control.end(),
-      [&](const Control& c) { return network.layout.kept_of_point[at(c.point)] >= 0; }));
-}
-
-bool has_kappa(const Network& network) {
-  for (int slot = 0; slot < network.slots(); ++slot) {
-    const Photo& photo = network.photo(slot);
-    if (photo.heading) return true;
-    if (photo.attitude && std::isfinite(photo.attitude->sigma_rad[2])) return true;
-  }
-  return false;
-}
-
-bool has_length(const Network& network) {
-  return std::any_of(network.problem->lengths.begin(), network.problem->lengths.end(),
-                     [&](const Length& length) {
-                       return network.layout.kept_of_point[at(length.point_a)] >= 0 &&
-                              network.layout.kept_of_point[at(length.point_b)] >= 0;
-                     });
-}
-
 }  // namespace
 
 std::vector<int> station_slots(const Network& network, const TermOptions& options) {
@@ -298,14 +183,6 @@ Eigen::MatrixXd station_covariance(const Network& network, const State& state,
   return covariance;
 }
 
-DatumDefect datum_defect(const Network& network, const TermOptions& options) {
-  if (options.datum == Datum::kFree) return {true, true, true};
-  const std::size_t stations = station_slots(network, options).size();
-  const int control = kept_control(network);
-  return {stations == 0 && control == 0, stations < 2 && control < 2 && !has_kappa(network),
-          stations < 2 && control < 2 && !has_length(network)};
-}
-
 std::vector<Term> linearised_terms(const Network& network, const State& state, const State& start,
                                    const TermOptions& options) {
   std::vector<Term> terms;
@@ -319,11 +196,7 @@ std::vector<Term> linearised_terms(const Network& network, const State& state, c
     add_lengths(network, state, terms);
     add_control(network, state, terms);
   }
-  const DatumDefect defect = datum_defect(network, options);
-  if (defect.translation) add_translation_datum(network, state, start, terms);
-  add_azimuth_datum(network, state, start, defect.azimuth ? kDatumSigmaRad : kUniformAzimuthRad,
-                    terms);
-  if (defect.scale) add_scale_datum(network, state, start, terms);
+  add_datum_terms(network, state, start, options, terms);
   return terms;
 }
 
