@@ -2,8 +2,11 @@
 #include "firmware/commands/commands.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
+#include <functional>
 #include <iostream>
+#include <string>
 
 #include "firmware/commands/gnss_command.h"
 #include "firmware/commands/measure_command.h"
@@ -15,6 +18,29 @@ namespace plumbline::commands {
 namespace {
 
 constexpr int kWrongUsage = 2;
+
+// Which command was meant, for the pointer to its help; empty where there is none.
+std::string command_of(const CLI::App& app, int argc, char** argv) {
+  if (argc < 2) return {};
+  const std::string word = argv[1];
+  for (const CLI::App* command : app.get_subcommands(std::function<bool(const CLI::App*)>())) {
+    if (command->check_name(word)) return word + " ";
+  }
+  return {};
+}
+
+int wrong_usage(const CLI::App& app, const CLI::ParseError& wrong, int argc, char** argv) {
+  const std::string command = command_of(app, argc, argv);
+  std::string what = wrong.what();
+  if (command.empty() && argc > 1 && argv[1][0] != '-') {
+    what = "There is no command '" + std::string(argv[1]) + "'";
+  } else if (command.empty() && argc < 2) {
+    what = "A command is required: measure, orient, sim or gnss";
+  }
+  std::replace(what.begin(), what.end(), '\n', ' ');
+  std::cerr << "plumbline: " << what << "; see plumbline " << command << "--help.\n";
+  return kWrongUsage;
+}
 
 int parse_and_run(int argc, char** argv) {
   CLI::App app{"Plumbline: from photos of a vertical climb to ground points with error bars."};
@@ -33,8 +59,7 @@ int parse_and_run(int argc, char** argv) {
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& wrong) {
-    app.exit(wrong);
-    return kWrongUsage;
+    return wrong_usage(app, wrong, argc, argv);
   }
   return status;
 }

@@ -173,12 +173,39 @@ class InputReader {
       if (!picks) return picks.error();
       inputs_.survey.picks = std::move(picks->picks);
       warn(picks->notices);
+      if (Status inside = check_picks(); !inside) return inside;
       if (Status hashed = remember(arguments_.picks); !hashed) return hashed;
     }
     for (const std::string& text : arguments_.lengths) {
       auto length = ingest::parse_length(text);
       if (!length) return length.error();
+      for (const std::string& end : {length->point_a, length->point_b}) {
+        if (is_picked(end)) continue;
+        return Error{"The known length " + length->point_a + " to " + length->point_b +
+                     " names a point that was not picked in any photo: " + end +
+                     "; give its picks with --picks."};
+      }
       inputs_.survey.lengths.push_back(*length);
+    }
+    return Done{};
+  }
+
+  bool is_picked(const std::string& point) const {
+    return std::ranges::any_of(inputs_.survey.picks,
+                               [&](const auto& pick) { return pick.point == point; });
+  }
+
+  // Half a photo beyond its edge is a slip of units, not a pick.
+  Status check_picks() const {
+    const Eigen::Array2d size(photos_.photos.front().width_px, photos_.photos.front().height_px);
+    for (const auto& pick : inputs_.survey.picks) {
+      const Eigen::Array2d at = pick.pixel.array() / size;
+      if ((at > -0.5).all() && (at < 1.5).all()) continue;
+      return Error{arguments_.picks.filename().string() + ": The pick of point '" + pick.point +
+                   "' lies far outside photo '" +
+                   photos_.photos[static_cast<std::size_t>(pick.photo)].name + "' of " +
+                   std::to_string(photos_.photos.front().width_px) + " x " +
+                   std::to_string(photos_.photos.front().height_px) + " pixels."};
     }
     return Done{};
   }
@@ -212,17 +239,18 @@ class InputReader {
       auto points = read_points(arguments_.check);
       if (!points) return points.error();
       inputs_.check = ingest::as_check_points(*points);
+      if (std::ranges::none_of(inputs_.check, [&](const auto& c) { return is_picked(c.point); })) {
+        return Error{"None of the " + std::to_string(inputs_.check.size()) + " check points of " +
+                     arguments_.check.filename().string() +
+                     " was picked in any photo; give their picks with --picks, named alike."};
+      }
     }
     return Done{};
   }
 
   Status check_control() {
     for (const auto& control : inputs_.survey.control) {
-      const auto& picks = inputs_.survey.picks;
-      if (std::any_of(picks.begin(), picks.end(),
-                      [&](const auto& pick) { return pick.point == control.point; })) {
-        continue;
-      }
+      if (is_picked(control.point)) continue;
       inputs_.warnings.push_back("Control point " + control.point +
                                  " was not picked in any photo and was not used.");
     }

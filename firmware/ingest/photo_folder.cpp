@@ -112,8 +112,9 @@ class Gathering {
     if (added) {
       set_.photos.push_back(std::move(intake.record));
     } else {
-      set_.warnings.push_back("Photo " + in_quotes(intake.record.name) + " is an exact copy of " +
-                              in_quotes(same->second) + " and was left out.");
+      copies_.push_back(in_quotes(intake.record.name) + " is an exact copy of " +
+                        in_quotes(same->second));
+      set_.warnings.push_back("Photo " + copies_.back() + " and was left out.");
     }
     return Done{};
   }
@@ -133,12 +134,14 @@ class Gathering {
                                                      in_quotes(set_.photos.front().name);
     sentence += "; two or more of the same ground are needed.";
     if (first_damage_) sentence += " " + first_damage_->sentence;
+    if (!copies_.empty()) sentence += " Photo " + copies_.front() + ".";
     return {sentence};
   }
 
   PhotoSet set_;
   std::map<std::string, std::string> by_hash_;
   std::optional<Error> first_damage_;
+  std::vector<std::string> copies_;
 };
 
 template <typename Decode>
