@@ -74,9 +74,9 @@ std::string picks_csv(const World& world, const Flight& flight) {
 
 std::string check_csv(const World& world, const geodesy::LocalFrame& frame) {
   std::string csv = "# true centres of the targets\n" + origin_line(frame);
-  csv += "point,e_m,n_m,u_m,lat_deg,lon_deg,height_ellipsoidal_m,sigma_e_m,sigma_n_m,sigma_u_m\n";
+  csv += "point,e_m,n_m,u_m,lat_deg,lon_deg,height_ellipsoidal_m\n";
   for (const Target& target : world.targets()) {
-    csv += target.name + "," + enu_and_geodetic(target.centre_m, frame) + ",0.001,0.001,0.001\n";
+    csv += target.name + "," + enu_and_geodetic(target.centre_m, frame) + "\n";
   }
   return csv;
 }

@@ -33,7 +33,10 @@ constexpr double kWorstHeight = 0.5;
 // A camera that the photos ask for, against all that is known of it, is asked for by image errors
 // that no camera model explains: ties lose weight until both agree.
 constexpr int kMaxWidenings = 12;
-constexpr double kSignificantSigmas = 3;
+// The 0.1 % point of chi-square with r degrees of freedom is r + 3.1 sqrt(2 r) + 5.5 to 2 % for r
+// up to 10.
+constexpr double kSignificantSigmas = 3.1;
+constexpr double kSmallSampleMargin = 5.5;
 constexpr int kMaxRounds = 12;
 constexpr double kSigmaSettled = 0.002;
 
@@ -141,8 +144,8 @@ class Adjustment {
       effect = image_correlation(network_, state_).design_effect;
     } else if (const auto camera = fits.find("camera"); camera != fits.end()) {
       const GroupFit& fit = camera->second;
-      const double expected = fit.redundancy + kSignificantSigmas * std::sqrt(2 * fit.redundancy);
-      if (fit.redundancy > 0 && fit.squares > expected)
+      const double r = std::max(fit.redundancy, 0.0);
+      if (r > 0 && fit.squares > r + kSignificantSigmas * std::sqrt(2 * r) + kSmallSampleMargin)
         effect = std::sqrt(fit.squares / fit.redundancy);
     }
     const bool again = widenings_ == 0 || effect > 1;
