@@ -28,6 +28,9 @@ constexpr double kFinalTolerance = 1e-11;
 // Photos whose largest separation is below this share of the flying height stand on one place: of
 // less, image noise alone makes as much.
 constexpr double kLeastBase = 0.02;
+// A point whose own sigma is beyond this share of the flying height (at the foot of a climb) is no
+// measurement; where it comes to lie by chance, its linearisation would pull at the rest.
+constexpr double kFarPoint = 0.1;
 // Heights worse than this share of the flying height (median sigma) are none.
 constexpr double kWorstHeight = 0.5;
 // A camera that the photos ask for, against all that is known of it, is asked for by image errors
@@ -161,7 +164,7 @@ class Adjustment {
 
   int drop_far_points() {
     const RaysLinear rays = linearise_rays(network_, state_, 0);
-    const double limit = std::abs(flying_height(network_, state_));
+    const double limit = kFarPoint * std::abs(flying_height(network_, state_));
     return drop_undetermined(network_, normal_equations(network_, rays.rays, {}), limit);
   }
 

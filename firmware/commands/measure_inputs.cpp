@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "firmware/commands/antenna_stations.h"
 #include "firmware/commands/geo_inputs.h"
 #include "firmware/commands/lever_arm.h"
 #include "firmware/ingest/camera_toml.h"
@@ -124,37 +125,10 @@ class InputReader {
     auto antenna = ingest::antenna_at_photos(*log, moments, offset);
     if (!antenna) return antenna.error();
     warn(antenna->warnings);
-    if (Status placed = place_antennas(*antenna); !placed) return placed;
+    if (Status placed = place_antennas(*antenna, inputs_.frame, inputs_.survey); !placed) {
+      return placed;
+    }
     return remember(arguments_.gnss);
-  }
-
-  Status place_antennas(const ingest::AntennaPositions& antenna) {
-    for (const auto& at : antenna.photos) {
-      if (inputs_.frame || !at) continue;
-      auto frame = geodesy::LocalFrame::at(at->position);
-      if (!frame) return frame.error();
-      inputs_.frame = *frame;
-    }
-    inputs_.survey.gnss = {};
-    for (std::size_t i = 0; i < antenna.photos.size(); ++i) {
-      orient::Photo& photo = inputs_.survey.photos[i];
-      photo.station.reset();
-      const auto& at = antenna.photos[i];
-      if (!at) continue;
-      const Eigen::Matrix3d turn = inputs_.frame->enu_from_enu_at(at->position);
-      photo.station = orient::Station{inputs_.frame->enu_of(at->position),
-                                      turn * at->covariance_enu_m2 * turn.transpose()};
-      photo.velocity_in_enu_m_s = at->velocity_enu_m_s;
-      note_quality(at->quality);
-    }
-    return Done{};
-  }
-
-  // Without corrections one offset is common to the flight (ingest/station_sigmas has its source).
-  void note_quality(FixQuality quality) {
-    if (quality == FixQuality::kFixed || quality == FixQuality::kFloat) return;
-    inputs_.survey.gnss.offset_sigma_horizontal_m = 3;
-    inputs_.survey.gnss.offset_sigma_vertical_m = 5;
   }
 
   Status read_lever_arm() {
