@@ -105,9 +105,10 @@ void add_point(const Network& network, const std::vector<RayLinear>& rays, int p
   int last_slot = -1;
   for (int k = network.first_ray[at(point)]; k < network.first_ray[at(point) + 1]; ++k) {
     const RayLinear& ray = rays[at(k)];
-    if (!ray.active) continue;
+    if (!network.rays[at(k)].used) continue;
     if (network.rays[at(k)].slot != last_slot) photo_at += Layout::kPose;
     last_slot = network.rays[at(k)].slot;
+    if (!ray.active) continue;
     const auto interior = ray.by_common.leftCols<kInteriorCount>();
     const auto pose = ray.by_common.rightCols<Layout::kPose>();
     const double w = ray.information;
