@@ -116,10 +116,11 @@ class Adjustment {
 
   // Plain least squares without what was found to be wrong, so that the covariance is honest.
   Result<Solution> finish() {
+    double tolerance = kRobustTolerance;
     for (int round = 0;; ++round) {
       int changed = reject_rays(network_, state_, options_.rejection_sigma);
       changed += drop_far_points();
-      minimise_from(datum_, {0, options_.max_iterations, kFinalTolerance});
+      minimise_from(datum_, {0, options_.max_iterations, tolerance});
       const RaysLinear rays = linearise_rays(network_, state_, 0);
       const auto terms = linearised_terms(network_, state_, datum_, terms_);
       const auto equations = normal_equations(network_, rays.rays, terms);
@@ -133,10 +134,13 @@ class Adjustment {
       const double sigma_change = rescale_by_variance(network_, fits);
       const bool station_found = reject_station(terms, *covariance);
       const bool settled = changed == 0 && sigma_change < kSigmaSettled && !station_found;
-      if ((settled || round + 1 >= kMaxRounds) && !widen(fits)) {
+      if (!settled && round + 1 < kMaxRounds) continue;
+      if (widen(fits)) continue;
+      if (tolerance == kFinalTolerance) {
         return solution_of({network_, state_, terms_, *covariance, fits, iterations_, converged_},
                            options_);
       }
+      tolerance = kFinalTolerance;
     }
   }
 
