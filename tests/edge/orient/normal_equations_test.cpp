@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "edge/orient/normal_equations.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/edge/orient/small_network.h"
+
+namespace plumbline::orient {
+namespace {
+
+using testing::DenseSystem;
+using testing::nudged;
+using testing::SmallNetwork;
+
+double step_of(int column) {
+  const bool small = column > geometry::kPrincipalV && column < geometry::kInteriorCount;
+  return small ? 1e-6 : 1e-4;
+}
+
+TEST(NormalEquations, LineariseARayByTrueDerivatives) {
+  const SmallNetwork small(11);
+  const RaysLinear rays = linearise_rays(small.network, small.state, 0);
+  for (std::size_t k = 0; k < rays.rays.size(); k += 7) {
+    const Ray& ray = small.network.rays[k];
+    ASSERT_TRUE(rays.rays[k].active);
+    for (int i = 0; i < kRayColumns; ++i) {
+      const bool of_camera = i < geometry::kInteriorCount;
+      if (of_camera && small.network.interior_mask[i] == 0) {
+        EXPECT_EQ(rays.rays[k].by_common.col(i).norm(), 0);
+        continue;
+      }
+      const int column =
+          of_camera ? i : small.network.layout.photo(ray.slot) + i - geometry::kInteriorCount;
+      const double h = step_of(column);
+      const Eigen::Vector2d slope =
+          (*residual_of(ray, nudged(small.network, small.state, column, h)) -
+           *residual_of(ray, nudged(small.network, small.state, column, -h))) /
+          (2 * h);
+      EXPECT_LT((slope - rays.rays[k].by_common.col(i)).norm(), 1e-5 * (1 + slope.norm())) << i;
+    }
+    for (int i = 0; i < 3; ++i) {
+      State after = small.state, before = small.state;
+      after.points[at(ray.point)][i] += 1e-4;
+      before.points[at(ray.point)][i] -= 1e-4;
+      const Eigen::Vector2d slope = (*residual_of(ray, after) - *residual_of(ray, before)) / 2e-4;
+      EXPECT_LT((slope - rays.rays[k].by_point.col(i)).norm(), 1e-5 * (1 + slope.norm()));
+    }
+  }
+}
+
+void expect_same_step(const SmallNetwork& small, double cauchy_scale) {
+  const RaysLinear rays = linearise_rays(small.network, small.state, cauchy_scale);
+  const auto terms = linearised_terms(small.network, small.state, small.datum, small.options);
+  const auto step = solve(normal_equations(small.network, rays.rays, terms), 0);
+  ASSERT_TRUE(step);
+  const Step dense = DenseSystem(small.network, rays.rays, terms).step();
+  for (Eigen::Index c = 0; c < step->common.size(); ++c) {
+    EXPECT_NEAR(step->common[c], dense.common[c], 1e-6 * (1e-3 + std::abs(dense.common[c]))) << c;
+  }
+  for (std::size_t p = 0; p < step->points.size(); ++p) {
+    EXPECT_LT((step->points[p] - dense.points[p]).norm(), 1e-6 * (1e-3 + dense.points[p].norm()));
+  }
+}
+
+TEST(NormalEquations, GiveTheStepOfTheSystemWithoutElimination) {
+  for (const std::uint64_t seed : {12U, 13U}) {
+    const SmallNetwork small(seed);
+    EXPECT_EQ(small.network.layout.kept.size(), 3U);
+    EXPECT_EQ(small.network.interior_mask[geometry::kAffinity], 0);
+    expect_same_step(small, 0);
+    expect_same_step(small, 2.5);
+  }
+}
+
+TEST(NormalEquations, GiveThatStepWithRaysRejectedAndTiesWidened) {
+  SmallNetwork small(14);
+  small.network.rays[3].used = false;
+  small.network.rays[17].used = false;
+  for (Ray& ray : small.network.rays) ray.group = ImageGroup::kTies;
+  small.network.ties_design_effect = 2.5;
+  expect_same_step(small, 0);
+}
+
+// A point behind one camera must not put the derivatives of the next photo into that camera's rows.
+TEST(NormalEquations, GiveThatStepWithARayThatCannotBeProjected) {
+  SmallNetwork small(15);
+  const Ray& lost = small.network.rays[at(small.network.first_ray[0])];
+  ASSERT_GE(used_rays(small.network, 0), 3);
+  geometry::Pose& pose = small.state.poses[at(lost.slot)];
+  pose.centre_m.z() = small.state.points[0].z() - 30;
+  for (Ray& ray : small.network.rays) {
+    if (ray.slot == lost.slot && ray.point != 0) ray.used = false;
+  }
+  ASSERT_FALSE(residual_of(lost, small.state));
+  expect_same_step(small, 0);
+}
+
+double robust_cost(const SmallNetwork& small, const State& state, double scale) {
+  return linearise_rays(small.network, state, scale).cost;
+}
+
+TEST(NormalEquations, WeighRaysAsTheRobustCostFalls) {
+  const SmallNetwork small(16);
+  constexpr double kScale = 2.5;
+  const RaysLinear rays = linearise_rays(small.network, small.state, kScale);
+  const DenseSystem system(small.network, rays.rays, {});
+  for (int column = 0; column < small.network.layout.columns(); ++column) {
+    if (column < geometry::kInteriorCount && small.network.interior_mask[column] == 0) continue;
+    const double h = 0.01 * step_of(column);
+    const double slope =
+        (robust_cost(small, nudged(small.network, small.state, column, h), kScale) -
+         robust_cost(small, nudged(small.network, small.state, column, -h), kScale)) /
+        (2 * h);
+    const double stated = 2 * system.gradient()[column];
+    EXPECT_NEAR(stated, slope, 1e-4 * std::abs(stated) + 1e-2) << column;
+  }
+}
+
+}  // namespace
+}  // namespace plumbline::orient
