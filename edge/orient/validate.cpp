@@ -29,11 +29,28 @@ Status check_camera(const Camera& camera) {
   return Done{};
 }
 
+bool is_sigma(double sigma) { return sigma >= 0 && std::isfinite(sigma); }
+
+Status check_gnss(const GnssErrorModel& gnss, const LeverArm& arm) {
+  if (!is_sigma(gnss.offset_sigma_horizontal_m) || !is_sigma(gnss.offset_sigma_vertical_m) ||
+      !is_sigma(gnss.correlated_sigma_horizontal_m) ||
+      !is_sigma(gnss.correlated_sigma_vertical_m) || !is_sigma(gnss.correlation_s)) {
+    return Error{"The sigmas and the correlation time of GNSS errors must be numbers from 0 on."};
+  }
+  if (!arm.in_photo_m.allFinite() || !is_sigma(arm.sigma_m)) {
+    return Error{"The lever arm needs three numbers and a sigma from 0 on, in metres."};
+  }
+  return Done{};
+}
+
 Status check_photo(const Photo& photo) {
   const std::string who = "Photo " + photo.name + ": ";
   if (photo.station && !(photo.station->antenna_in_enu_m.allFinite() &&
                          is_covariance(photo.station->covariance_m2))) {
     return Error{who + "its position or the sigma of it is not a number."};
+  }
+  if (photo.time_s && !std::isfinite(*photo.time_s)) {
+    return Error{who + "its time is not a number."};
   }
   if (photo.heading &&
       !(std::isfinite(photo.heading->heading_rad) && photo.heading->sigma_rad > 0)) {
@@ -80,6 +97,7 @@ Status check_known(const Problem& problem) {
 
 Status validate(const Problem& problem) {
   if (auto status = check_camera(problem.camera); !status) return status;
+  if (auto status = check_gnss(problem.gnss, problem.lever_arm); !status) return status;
   if (problem.photos.size() < 2) {
     return Error{
         "One photo alone cannot be measured: at least two photos of the same ground from "
