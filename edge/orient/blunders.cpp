@@ -74,6 +74,16 @@ bool holds_together(const Network& network, int point, std::ptrdiff_t good, int 
   return good >= 2 && (good == given || (good >= 3 && 2 * good > given));
 }
 
+// A point of a known length that has no rays has nothing else to hold it: it stands aside, and the
+// length with it, until its rays come back.
+void couple(Network& network, int point, bool measured) {
+  const std::vector<int>& kept = network.layout.kept;
+  const auto place = std::find(kept.begin(), kept.end(), point);
+  if (place == kept.end()) return;
+  const bool held = measured || holds_with_one_ray(network, point);
+  network.layout.kept_of_point[at(point)] = held ? static_cast<int>(place - kept.begin()) : -1;
+}
+
 }  // namespace
 
 std::string name_of(ImageGroup group) {
@@ -154,6 +164,7 @@ int reject_rays(Network& network, const State& state, double sigmas) {
       changed += use != network.rays[at(k)].used ? 1 : 0;
       network.rays[at(k)].used = use;
     }
+    couple(network, p, enough);
   }
   return changed;
 }
@@ -225,24 +236,29 @@ std::vector<double> robust_station_weights(const Network& network, const State& 
   return weights;
 }
 
-int suspicious_station(const Network& network, const State& state, const TermOptions& options,
+int suspicious_station(const Network& network, const State& /*state*/, const TermOptions& options,
                        const std::vector<Term>& terms, const NetworkCovariance& covariance) {
   const std::vector<int> slots = station_slots(network, options);
   const auto term =
       std::find_if(terms.begin(), terms.end(), [](const Term& t) { return t.group == "gnss"; });
   if (term == terms.end() || slots.size() < 3) return -1;
-  const Eigen::MatrixXd stated = station_covariance(network, state, options);
+  // A gross error of one station among correlated ones: with P the stations' information, v their
+  // residuals and Q the residuals' covariance, it shows in P v, whose covariance is P Q P (Baarda
+  // 1968). An error common to all of them so hides nothing of it.
+  const Eigen::MatrixXd& p = term->information;
   const Eigen::MatrixXd adjusted = term->jacobian *
                                    covariance.common()(term->columns, term->columns) *
                                    term->jacobian.transpose();
+  const Eigen::MatrixXd spread = p - p * adjusted * p;
+  const Eigen::VectorXd weighted = p * term->residual;
   int worst = -1;
   double most = kStationChiSquare3;
   for (std::size_t k = 0; k < slots.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(3 * k);
-    const Eigen::Matrix3d own = stated.block<3, 3>(row, row);
-    const Eigen::Matrix3d of_residual = own - adjusted.block<3, 3>(row, row);
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> modes(of_residual, own);
-    const Eigen::Vector3d v = modes.eigenvectors().transpose() * term->residual.segment<3>(row);
+    const Eigen::Matrix3d own = p.block<3, 3>(row, row);
+    const Eigen::Matrix3d of_weighted = spread.block<3, 3>(row, row);
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix3d> modes(of_weighted, own);
+    const Eigen::Vector3d v = modes.eigenvectors().transpose() * weighted.segment<3>(row);
     double statistic = 0;
     for (int i = 0; i < 3; ++i) {
       if (modes.eigenvalues()[i] > kLeastRedundancy)

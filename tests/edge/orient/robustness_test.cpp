@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "edge/base/index.h"
+#include "edge/orient/adjust.h"
+#include "tests/edge/orient/made_flight.h"
+
+namespace plumbline::orient {
+namespace {
+
+using testing::FlightPlan;
+using testing::MadeFlight;
+using testing::make_flight;
+
+void add_length(MadeFlight& flight, int a, int b) {
+  flight.problem.lengths.push_back(
+      {a, b, (flight.points[at(b)] - flight.points[at(a)]).norm(), 0.002});
+}
+
+TEST(Adjust, LivesWithALengthWhoseEndIsSeenInOnePhotoOnly) {
+  MadeFlight flight = make_flight({}, 51);
+  add_length(flight, 3, 9);
+  add_length(flight, 4, 8);
+  std::erase_if(flight.problem.observations,
+                [](const Observation& o) { return o.point == 3 && o.photo != 1; });
+  const auto solution = adjust(flight.problem, {});
+  ASSERT_TRUE(solution) << solution.error().sentence;
+  EXPECT_FALSE(solution->points[3].measured);
+  const Eigen::Vector3d error = solution->points[9].in_enu_m - flight.points[9];
+  const Eigen::Vector3d sigma = solution->points[9].covariance_m2.diagonal().cwiseSqrt();
+  EXPECT_LT(error.cwiseQuotient(sigma).cwiseAbs().maxCoeff(), 4);
+}
+
+TEST(Adjust, LivesWithALengthWhoseEndIsAMismatch) {
+  MadeFlight flight = make_flight({}, 52);
+  add_length(flight, 3, 9);
+  int seen = 0;
+  std::erase_if(flight.problem.observations,
+                [&](const Observation& o) { return o.point == 3 && ++seen > 2; });
+  for (Observation& o : flight.problem.observations) {
+    if (o.point == 3) {
+      o.pixel += Eigen::Vector2d(150, -90);
+      break;
+    }
+  }
+  const auto solution = adjust(flight.problem, {});
+  ASSERT_TRUE(solution) << solution.error().sentence;
+  EXPECT_FALSE(solution->points[3].measured);
+}
+
+// An error common to all stations hides nothing of one that disagrees with the others.
+TEST(Adjust, FindsAWrongStationUnderALargeCommonOffset) {
+  MadeFlight flight = make_flight({}, 53);
+  flight.problem.gnss.offset_sigma_horizontal_m = 1;
+  flight.problem.gnss.offset_sigma_vertical_m = 2;
+  flight.problem.photos[2].station->antenna_in_enu_m += Eigen::Vector3d(0.3, -0.2, 0.1);
+  const auto solution = adjust(flight.problem, {});
+  ASSERT_TRUE(solution) << solution.error().sentence;
+  for (std::size_t i = 0; i < solution->photos.size(); ++i) {
+    EXPECT_EQ(solution->photos[i].station_rejected, i == 2) << i;
+  }
+}
+
+TEST(Adjust, RefusesNumbersThatAreNone) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const MadeFlight flight = make_flight({}, 54);
+  Problem problem = flight.problem;
+  problem.gnss.correlated_sigma_vertical_m = nan;
+  EXPECT_FALSE(adjust(problem, {}));
+  problem = flight.problem;
+  problem.lever_arm.in_photo_m.x() = nan;
+  EXPECT_FALSE(adjust(problem, {}));
+  problem = flight.problem;
+  problem.photos[1].time_s = nan;
+  const auto solution = adjust(problem, {});
+  ASSERT_FALSE(solution);
+  EXPECT_NE(solution.error().sentence.find("photo2"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace plumbline::orient
