@@ -141,6 +141,27 @@ void fill_best_fit(const orient::Solution& solution, const std::vector<Match>& m
   report.best_fit_rmse_m = (left.rowwise().squaredNorm() / static_cast<double>(n)).cwiseSqrt();
 }
 
+// A turn by theta moves a point at radius r by r theta along its error bar and by r theta^2 / 2
+// across it, where only its own, much smaller sigma stands.
+bool turns_are_small(const orient::Solution& solution, const std::vector<Match>& matches) {
+  const orient::CommonSigmas& common = solution.summary.common;
+  const double turn_rad = std::hypot(common.azimuth_rad, common.tilt_rad);
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  double own = 0;
+  const auto n = static_cast<double>(matches.size());
+  for (const Match& match : matches) {
+    const auto& point = solution.points[static_cast<std::size_t>(match.point)];
+    centre += point.in_enu_m / n;
+    own += point.local_covariance_m2.trace() / 3 / n;
+  }
+  double radius = 0;
+  for (const Match& match : matches) {
+    const auto& point = solution.points[static_cast<std::size_t>(match.point)];
+    radius = std::max(radius, (point.in_enu_m - centre).norm());
+  }
+  return 0.5 * radius * turn_rad * turn_rad <= std::sqrt(own);
+}
+
 }  // namespace
 
 Result<CheckReport> check(const orient::Problem& problem, const orient::Solution& solution,
@@ -161,6 +182,7 @@ Result<CheckReport> check(const orient::Problem& problem, const orient::Solution
   report.same_frame = tied_to_the_frame(problem);
   fill_moments(d, sigma, report);
   if (solution.covariances) fill_joint_nees(d, c, report);
+  report.joint_nees_holds = turns_are_small(solution, matches);
   fill_best_fit(solution, matches, report);
   return report;
 }

@@ -45,6 +45,9 @@ struct CheckReport {
   // 99 % interval of chi-square with that many degrees of freedom.
   double joint_nees_low = 0;
   double joint_nees_high = 0;
+  // False where azimuth or level of the whole are known so poorly that a turn within their sigma
+  // moves points off the straight line that error bars describe: then the joint test says nothing.
+  bool joint_nees_holds = true;
   // After a 7-parameter similarity to the known points (three points or more).
   std::optional<Eigen::Vector3d> best_fit_rmse_m;
 };

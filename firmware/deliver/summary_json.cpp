@@ -140,6 +140,7 @@ Json check_object(const survey::CheckReport& check) {
   json["share_within_two_sigma"] = number(check.share_within_two_sigma);
   const bool tested = check.joint_nees_dof > 0;
   json["joint_nees"] = tested ? number(check.joint_nees) : Json(nullptr);
+  json["joint_nees_holds"] = tested && check.joint_nees_holds;
   json["joint_nees_dof"] = check.joint_nees_dof;
   json["joint_nees_low"] = tested ? number(check.joint_nees_low) : Json(nullptr);
   json["joint_nees_high"] = tested ? number(check.joint_nees_high) : Json(nullptr);

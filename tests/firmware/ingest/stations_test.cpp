@@ -65,7 +65,7 @@ TEST(Stations, OfSingleFixesShareAnOffsetAndADrift) {
   const auto stations =
       stations_of(climb(PhotoFix::kSingle, std::nullopt, HeightKind::kEllipsoidal), {});
   EXPECT_NEAR(stations->gnss.offset_sigma_horizontal_m, 3, 1e-9);
-  EXPECT_NEAR(stations->gnss.offset_sigma_vertical_m, 8, 1e-9);
+  EXPECT_NEAR(stations->gnss.offset_sigma_vertical_m, 6, 1e-9);
   EXPECT_NEAR(stations->gnss.correlated_sigma_vertical_m, 3, 1e-9);
   EXPECT_GT(stations->gnss.correlation_s, 0);
   EXPECT_NEAR(white(*stations, 0), 1, 1e-6);
