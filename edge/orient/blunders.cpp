@@ -115,10 +115,16 @@ void rescale_by_median(Network& network, const State& state) {
 GroupFits group_fits(const Network& network, const NetworkCovariance& covariance,
                      const std::vector<RayLinear>& rays, const std::vector<Term>& terms) {
   GroupFits fits;
+  PointSpread spread;
+  int spread_of = -1;
   for (std::size_t k = 0; k < rays.size(); ++k) {
-    if (!rays[k].active || !covariance.point(network.rays[k].point).measured) continue;
+    const int point = network.rays[k].point;
+    if (!rays[k].active || !covariance.point(point).measured) continue;
+    if (point != spread_of) spread = covariance.spread(point);
+    spread_of = point;
     GroupFit& fit = fits[name_of(network.rays[k].group)];
-    const Eigen::Matrix2d q = covariance.pixel_covariance(network, network.rays[k], rays[k]);
+    const Eigen::Matrix2d q =
+        covariance.pixel_covariance(network, network.rays[k], rays[k], spread);
     const double sigma = network.rays[k].sigma_px;
     fit.squares += rays[k].residual.squaredNorm() / (sigma * sigma);
     fit.redundancy += 2 - q.trace() * rays[k].information;

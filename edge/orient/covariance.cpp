@@ -89,19 +89,26 @@ Eigen::MatrixXd NetworkCovariance::joint(const std::vector<int>& points) const {
   return covariance;
 }
 
-// With dp = A dc + own, the pixel moves by (Jc + Jp A) dc + Jp own.
+PointSpread NetworkCovariance::spread(int index) const {
+  const PointFactor& f = point(index);
+  PointSpread out;
+  out.with_common = f.by_common * common_(f.columns, Eigen::all);
+  out.own = f.own + out.with_common(Eigen::all, f.columns) * f.by_common.transpose();
+  return out;
+}
+
+// The pixel moves by Jc dc + Jp dp.
 Eigen::Matrix2d NetworkCovariance::pixel_covariance(const Network& network, const Ray& ray,
-                                                    const RayLinear& linear) const {
-  const PointFactor& factor = point(ray.point);
-  std::vector<int> columns = factor.columns;
-  Eigen::MatrixXd by_columns = linear.by_point * factor.by_common;
-  const auto size = static_cast<Eigen::Index>(columns.size());
-  by_columns.conservativeResize(2, size + kRayColumns);
-  by_columns.rightCols(kRayColumns) = linear.by_common;
+                                                    const RayLinear& linear,
+                                                    const PointSpread& spread) const {
+  std::vector<int> columns;
   for (int i = 0; i < geometry::kInteriorCount; ++i) columns.push_back(i);
   for (int i = 0; i < Layout::kPose; ++i) columns.push_back(network.layout.photo(ray.slot) + i);
-  return linear.by_point * factor.own * linear.by_point.transpose() +
-         by_columns * common_block(columns, columns) * by_columns.transpose();
+  const Eigen::Matrix2d crossed =
+      linear.by_point * spread.with_common(Eigen::all, columns) * linear.by_common.transpose();
+  return linear.by_point * spread.own * linear.by_point.transpose() + crossed +
+         crossed.transpose() +
+         linear.by_common * common_block(columns, columns) * linear.by_common.transpose();
 }
 
 }  // namespace plumbline::orient

@@ -20,6 +20,12 @@ struct PointFactor {
   Eigen::Matrix3d own = Eigen::Matrix3d::Zero();
 };
 
+// A point's covariance, and its covariance with every column of the reduced system.
+struct PointSpread {
+  Eigen::Matrix3d own = Eigen::Matrix3d::Zero();
+  Eigen::Matrix<double, 3, Eigen::Dynamic> with_common;
+};
+
 class NetworkCovariance final : public PointCovariances {
  public:
   // Empty where the reduced matrix is singular to working precision.
@@ -33,9 +39,10 @@ class NetworkCovariance final : public PointCovariances {
   Eigen::Matrix3d point_covariance(int index) const;
   // by_common of `index` times the common covariance times `right` (columns x k).
   Eigen::MatrixXd joint(const std::vector<int>& points) const override;
-  // Covariance of the computed pixel of a ray.
-  Eigen::Matrix2d pixel_covariance(const Network& network, const Ray& ray,
-                                   const RayLinear& linear) const;
+  PointSpread spread(int index) const;
+  // Covariance of the computed pixel of a ray; `spread` is that of its point.
+  Eigen::Matrix2d pixel_covariance(const Network& network, const Ray& ray, const RayLinear& linear,
+                                   const PointSpread& spread) const;
 
  private:
   Eigen::MatrixXd common_block(const std::vector<int>& rows, const std::vector<int>& cols) const;

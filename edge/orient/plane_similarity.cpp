@@ -13,7 +13,7 @@ std::vector<bool> agreeing(const std::vector<PlaneMatch>& matches, const PlaneSi
                            double tolerance) {
   std::vector<bool> agree(matches.size());
   for (std::size_t i = 0; i < matches.size(); ++i) {
-    agree[i] = std::abs(s.a * matches[i].first + s.b - matches[i].second) <= tolerance;
+    agree[i] = std::norm(s.a * matches[i].first + s.b - matches[i].second) <= tolerance * tolerance;
   }
   return agree;
 }

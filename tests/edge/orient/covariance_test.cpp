@@ -86,8 +86,9 @@ TEST(NetworkCovariance, CarriesItselfToThePixelOfARay) {
         linear.by_common.leftCols<geometry::kInteriorCount>();
     jacobian.middleCols<6>(small.network.layout.photo(ray.slot)) = linear.by_common.rightCols<6>();
     jacobian.middleCols<3>(both.system.column_of_point(ray.point)) = linear.by_point;
-    expect_alike(both.factored.pixel_covariance(small.network, ray, linear),
-                 jacobian * both.dense * jacobian.transpose(), 1e-6);
+    expect_alike(
+        both.factored.pixel_covariance(small.network, ray, linear, both.factored.spread(ray.point)),
+        jacobian * both.dense * jacobian.transpose(), 1e-6);
   }
 }
 
