@@ -107,10 +107,10 @@ bool has_length(const Network& network) {
 
 DatumDefect datum_defect(const Network& network, const TermOptions& options) {
   if (options.datum == Datum::kFree) return {true, true, true};
-  const std::size_t stations = station_slots(network, options).size();
-  const int control = kept_control(network);
-  return {stations == 0 && control == 0, stations < 2 && control < 2 && !has_kappa(network),
-          stations < 2 && control < 2 && !has_length(network)};
+  // A station and a control point fix scale and azimuth as two of either do.
+  const int places =
+      static_cast<int>(station_slots(network, options).size()) + kept_control(network);
+  return {places == 0, places < 2 && !has_kappa(network), places < 2 && !has_length(network)};
 }
 
 void add_datum_terms(const Network& network, const State& state, const State& start,

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "edge/base/index.h"
@@ -61,6 +62,31 @@ TEST(Adjust, FindsAWrongStationUnderALargeCommonOffset) {
   ASSERT_TRUE(solution) << solution.error().sentence;
   for (std::size_t i = 0; i < solution->photos.size(); ++i) {
     EXPECT_EQ(solution->photos[i].station_rejected, i == 2) << i;
+  }
+}
+
+// One place is not enough for scale and azimuth, but a station and a control point are two.
+TEST(Adjust, TakesScaleAndAzimuthFromOneStationAndOneControlPoint) {
+  MadeFlight flight = make_flight({}, 55);
+  for (std::size_t i = 1; i < flight.problem.photos.size(); ++i) {
+    flight.problem.photos[i].station.reset();
+  }
+  std::size_t far = 0;
+  for (std::size_t p = 0; p < flight.points.size(); ++p) {
+    if (flight.points[p].head<2>().norm() > flight.points[far].head<2>().norm()) far = p;
+  }
+  flight.problem.control.push_back(
+      {static_cast<int>(far), flight.points[far], 1e-4 * Eigen::Matrix3d::Identity()});
+  const auto solution = adjust(flight.problem, {});
+  ASSERT_TRUE(solution) << solution.error().sentence;
+  EXPECT_TRUE(std::isfinite(solution->summary.common.azimuth_rad));
+  EXPECT_TRUE(std::isfinite(solution->summary.common.scale));
+  for (std::size_t p = 0; p < flight.points.size(); ++p) {
+    const MeasuredPoint& point = solution->points[p];
+    if (!point.measured) continue;
+    const Eigen::Vector3d error = point.in_enu_m - flight.points[p];
+    const Eigen::Vector3d sigma = point.covariance_m2.diagonal().cwiseSqrt();
+    EXPECT_LT(error.cwiseQuotient(sigma).cwiseAbs().maxCoeff(), 5) << p;
   }
 }
 
