@@ -148,12 +148,13 @@ Painting paint_ground(int side, double texel_m, std::uint64_t seed, int threads)
       fractal(coarse, {0.5, 0.4, 0.3, 0.3, 0.2, 0.2, 0.1}, mixed(seed, 3), threads);
   Painting painting{brightness.side, {}};
   const auto texels = static_cast<std::size_t>(brightness.side);
+  const int middle = side / 2;
   painting.texels.assign(4 * texels * texels, 0);
   parallel_for(brightness.side, threads, [&](int y) {
     for (int x = 0; x < brightness.side; ++x) {
       const double cx = static_cast<double>(x) / kTexelsPerCover;
       const double cy = static_cast<double>(y) / kTexelsPerCover;
-      const float rut = track((x - side / 2) * texel_m, (y - side / 2) * texel_m);
+      const float rut = track((x - middle) * texel_m, (y - middle) * texel_m);
       const float fine = brightness.at(x, y);
       const float grows = smooth_at(cover, cx, cy) + 0.6f * fine - 0.6f * rut;
       const float dry = step_between(-0.5f, 0.5f, smooth_at(dryness, cx, cy) + 0.4f * rut);

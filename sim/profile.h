@@ -25,7 +25,7 @@ struct Profile {
   std::vector<double> side_steps_m;
   std::optional<double> side_direction_deg;  // of the first leg, from north clockwise; else random
   double drift_m = 0.8;           // slanting off over the whole climb, in a random direction
-  double wander_m = 0.03;         // sigma per photo and axis, sideways
+  double wander_m = 0.01;         // sigma per photo and axis, sideways
   double height_sigma_m = 0.1;    // sigma per photo: the trigger is not exact
   double tilt_sigma_deg = 1;      // of omega and of phi, per photo
   std::optional<double> yaw_deg;  // top of the first photo, from north clockwise; else random

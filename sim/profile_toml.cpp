@@ -124,8 +124,7 @@ std::optional<std::string> put_base(Profile& profile, const toml::node& node) {
   return std::nullopt;
 }
 
-#define PLUMBLINE_FIELD(member) \
-  [](Profile & p) -> auto& { return p.member; }
+#define PLUMBLINE_FIELD(member) ([](Profile & p) -> auto& { return p.member; })
 
 std::map<std::string, Put> flight_keys() {
   return {

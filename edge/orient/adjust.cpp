@@ -24,7 +24,7 @@ constexpr double kSharp[] = {6, 2.5};
 constexpr int kCrudeIterations = 30;
 constexpr double kCrudeTolerance = 1e-4;
 constexpr double kRobustTolerance = 1e-6;
-constexpr double kFinalTolerance = 1e-11;
+constexpr double kFinalTolerance = 1e-13;
 // Photos whose largest separation is below this share of the flying height stand on one place: of
 // less, image noise alone makes as much.
 constexpr double kLeastBase = 0.02;
@@ -116,6 +116,7 @@ class Adjustment {
 
   // Plain least squares without what was found to be wrong, so that the covariance is honest.
   Result<Solution> finish() {
+    datum_ = state_;  // a prior on what nobody knows pulls at nothing
     double tolerance = kRobustTolerance;
     for (int round = 0;; ++round) {
       int changed = reject_rays(network_, state_, options_.rejection_sigma);
@@ -132,9 +133,10 @@ class Adjustment {
       }
       const GroupFits fits = group_fits(network_, *covariance, rays.rays, terms);
       const double sigma_change = rescale_by_variance(network_, fits);
-      const bool station_found = reject_station(terms, *covariance);
+      const bool last = round + 1 >= kMaxRounds;
+      const bool station_found = !last && reject_station(terms, *covariance);
       const bool settled = changed == 0 && sigma_change < kSigmaSettled && !station_found;
-      if (!settled && round + 1 < kMaxRounds) continue;
+      if (!settled && !last) continue;
       if (widen(fits)) continue;
       if (tolerance == kFinalTolerance) {
         return solution_of({network_, state_, terms_, *covariance, fits, iterations_, converged_},

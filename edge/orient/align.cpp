@@ -16,6 +16,8 @@ namespace {
 constexpr int kAzimuthTrials = 72;
 constexpr int kReweightings = 5;
 constexpr double kCauchySigmas = 3;
+// The free network is not yet at its minimum: its stations are good to this share of their height.
+constexpr double kCrudeShare = 0.02;
 
 // A place in the free network and where it is known to be.
 struct Tie {
@@ -210,10 +212,20 @@ State moved(const State& state, const Similarity& similarity) {
   return out;
 }
 
+double median_height(const State& state) {
+  std::vector<double> heights;
+  for (const geometry::Pose& pose : state.poses) heights.push_back(std::abs(pose.centre_m.z()));
+  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+  std::nth_element(heights.begin(), middle, heights.end());
+  return *middle;
+}
+
 State aligned_once(const Network& network, const State& free, const State& levered,
                    const TermOptions& options) {
-  const std::vector<Tie> ties = ties_of(network, free, levered, options);
+  std::vector<Tie> ties = ties_of(network, free, levered, options);
   const Guess guess = guess_of(network, free, ties, options);
+  const double crude_m = kCrudeShare * guess.scale * median_height(free);
+  for (Tie& tie : ties) tie.sigma = (tie.sigma.array().square() + crude_m * crude_m).sqrt();
   Similarity best;
   for (int trial = 0; trial < kAzimuthTrials; ++trial) {
     const double azimuth_rad = 2 * std::numbers::pi * trial / kAzimuthTrials;

@@ -72,6 +72,12 @@ void judge_azimuth(const Evidence& e, const CommonSigmas& s, const Options& opti
 
 void judge_tilt(const CommonSigmas& s, const Options& options, std::vector<Unobservable>& out) {
   if (s.tilt_rad <= options.max_tilt_sigma_deg * kRadPerDeg) return;
+  if (!std::isfinite(s.tilt_rad)) {
+    out.push_back({"tilt",
+                   "The level of the result is not known: fewer than three points off one "
+                   "line were measured. Measure more points."});
+    return;
+  }
   out.push_back({"tilt", "The level of the result is known only to " + in_degrees(s.tilt_rad) +
                              " (sigma): heights tilt with it. RTK positions, or three control "
                              "points, fix it."});
@@ -157,6 +163,7 @@ CommonSigmas common_sigmas(const Evidence& e, double flying_height_m) {
   const auto& c = e.frame.common_covariance;
   const DatumDefect defect = datum_defect(e.network, e.terms);
   CommonSigmas sigmas;
+  if (!e.frame.determined) return {kInfinity, kInfinity, kInfinity, kInfinity, kInfinity, 0};
   sigmas.position_m = defect.translation ? kInfinity : std::sqrt(c.diagonal().head<3>().maxCoeff());
   sigmas.azimuth_rad = defect.azimuth ? kInfinity : std::sqrt(c(5, 5));
   sigmas.scale = defect.scale ? kInfinity : std::sqrt(c(6, 6));

@@ -69,6 +69,7 @@ LocalFrameFit fit_local_frame(const Network& network, const State& state,
   const Matrix7 a = lu.inverse();
   const Eigen::MatrixXd b = a * summed;  // similarity by columns
   const Eigen::MatrixXd cb = covariance.common() * b.transpose();
+  fit.determined = true;
   fit.common_covariance = b * cb + a * own_sum * a;
   std::vector<bool> in_frame(point_covariances.size(), false);
   for (const int p : chosen) in_frame[at(p)] = true;

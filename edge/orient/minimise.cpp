@@ -12,6 +12,8 @@ constexpr double kFirstLambda = 1e-4;
 constexpr double kLeastLambda = 1e-12;
 constexpr double kMostLambda = 1e8;
 constexpr double kNearlyUndamped = 1e-3;
+// What summing some ten thousand squares leaves.
+constexpr double kRounding = 1e-11;
 
 struct Evaluated {
   RaysLinear rays;
@@ -55,8 +57,7 @@ class Minimiser {
       Evaluated there = evaluate(trial);
       if (!(there.cost <= current_.cost)) {
         // At the bottom, rounding alone may lift the cost.
-        if (there.cost - current_.cost <= options_.tolerance * current_.cost)
-          minimum_.converged = true;
+        if (there.cost - current_.cost <= kRounding * current_.cost) minimum_.converged = true;
         if (minimum_.converged) return true;
         continue;
       }

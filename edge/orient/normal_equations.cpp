@@ -2,6 +2,7 @@
 #include "edge/orient/normal_equations.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -238,20 +239,52 @@ std::optional<Step> solve(const NormalEquations& equations, double lambda) {
   return step;
 }
 
+// What all photos turn by together is followed as the rotation it is, about the middle of the
+// stations, and only the rest as a straight line: a turn of the whole changes no image, and as a
+// straight line it could take but tiny steps before the points left their rays. To first order the
+// same as adding the step.
+class WholeTurn {
+ public:
+  WholeTurn(const Layout& layout, const State& state, const Step& step) {
+    for (int slot = 0; slot < layout.slots; ++slot) {
+      turn_rad_ += step.common.segment<3>(layout.photo(slot) + 3) / layout.slots;
+      centre_m_ += state.poses[at(slot)].centre_m / layout.slots;
+    }
+    rotation_ = geometry::rotation_by(turn_rad_);
+  }
+
+  Eigen::Vector3d place(const Eigen::Vector3d& from, const Eigen::Vector3d& step) const {
+    const Eigen::Vector3d arm = from - centre_m_;
+    return centre_m_ + rotation_ * (arm + step - turn_rad_.cross(arm));
+  }
+  Eigen::Matrix3d attitude(const Eigen::Matrix3d& from, const Eigen::Vector3d& step_rad) const {
+    return rotation_ * geometry::rotation_by(step_rad - turn_rad_) * from;
+  }
+
+ private:
+  Eigen::Vector3d turn_rad_ = Eigen::Vector3d::Zero();
+  Eigen::Vector3d centre_m_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();
+};
+
 State moved_by(const Network& network, const State& state, const Step& step) {
   State moved = state;
   const Layout& layout = network.layout;
+  const WholeTurn whole(layout, state, step);
   moved.interior += step.common.head<kInteriorCount>();
   for (int slot = 0; slot < layout.slots; ++slot) {
     geometry::Pose& pose = moved.poses[at(slot)];
-    pose.centre_m += step.common.segment<3>(layout.photo(slot));
-    pose.ground_from_photo = geometry::rotation_by(step.common.segment<3>(layout.photo(slot) + 3)) *
-                             pose.ground_from_photo;
+    const int column = layout.photo(slot);
+    pose.centre_m = whole.place(pose.centre_m, step.common.segment<3>(column));
+    pose.ground_from_photo =
+        whole.attitude(pose.ground_from_photo, step.common.segment<3>(column + 3));
   }
-  for (std::size_t p = 0; p < moved.points.size(); ++p) moved.points[p] += step.points[p];
-  for (std::size_t k = 0; k < layout.kept.size(); ++k) {
-    moved.points[at(layout.kept[k])] +=
-        step.common.segment<3>(layout.kept_point(static_cast<int>(k)));
+  for (std::size_t p = 0; p < moved.points.size(); ++p) {
+    const int kept = layout.kept_of_point[p];
+    const Eigen::Vector3d own =
+        kept >= 0 ? Eigen::Vector3d(step.common.segment<3>(layout.kept_point(kept)))
+                  : step.points[p];
+    moved.points[p] = whole.place(moved.points[p], own);
   }
   return moved;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "edge/orient/validate.h"
 
+#include <Eigen/Cholesky>
 #include <cmath>
 
 namespace plumbline::orient {
@@ -12,9 +13,7 @@ bool in_range(int index, std::size_t size) {
   return index >= 0 && static_cast<std::size_t>(index) < size;
 }
 
-bool is_covariance(const Eigen::Matrix3d& m) {
-  return m.allFinite() && (m.diagonal().array() >= 0).all();
-}
+bool is_covariance(const Eigen::Matrix3d& m) { return m.allFinite() && m.ldlt().isPositive(); }
 
 Status check_camera(const Camera& camera) {
   if (camera.width_px <= 0 || camera.height_px <= 0) {

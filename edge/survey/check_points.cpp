@@ -85,7 +85,8 @@ Eigen::MatrixXd covariance(const orient::Solution& solution, const std::vector<M
 }
 
 void fill_moments(const Eigen::VectorXd& d, const Eigen::VectorXd& sigma, CheckReport& report) {
-  const auto n = static_cast<double>(d.size() / 3);
+  const Eigen::Index points = d.size() / 3;
+  const auto n = static_cast<double>(points);
   int within_one = 0;
   int within_two = 0;
   for (Eigen::Index i = 0; i < d.size(); ++i) {
