@@ -64,8 +64,8 @@ class Residuals {
   }
 
   Figure draw() const {
-    const auto rows = static_cast<double>((panels_.size() + kColumns - 1) / kColumns);
-    const double height = rows * (kTitle + panel_height() + kGap) + 40;
+    const std::size_t rows = (panels_.size() + kColumns - 1) / kColumns;
+    const double height = static_cast<double>(rows) * (kTitle + panel_height() + kGap) + 40;
     Svg svg(kColumns * kPanelWidth + (kColumns - 1) * kGap, height,
             "Residuals of the image coordinates, photo by photo");
     for (std::size_t i = 0; i < panels_.size(); ++i) draw_panel(svg, i);
@@ -101,7 +101,8 @@ class Residuals {
   void draw_panel(Svg& svg, std::size_t i) const {
     const Panel& panel = panels_[i];
     const auto column = static_cast<double>(i % kColumns);
-    const auto row = static_cast<double>(i / kColumns);
+    const std::size_t row_above = i / kColumns;
+    const auto row = static_cast<double>(row_above);
     const Place title(column * (kPanelWidth + kGap),
                       row * (kTitle + panel_height() + kGap) + kTitle - 7);
     const Place corner = title + Place(0, 7);
