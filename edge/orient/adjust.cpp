@@ -6,11 +6,13 @@
 
 #include "edge/base/units.h"
 #include "edge/orient/align.h"
-#include "edge/orient/blunders.h"
 #include "edge/orient/free_start.h"
+#include "edge/orient/group_fits.h"
 #include "edge/orient/image_correlation.h"
 #include "edge/orient/minimise.h"
+#include "edge/orient/rays.h"
 #include "edge/orient/solution_of.h"
+#include "edge/orient/stations.h"
 #include "edge/orient/validate.h"
 
 namespace plumbline::orient {

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "edge/orient/adjust.h"
-#include "edge/orient/blunders.h"
 #include "edge/orient/covariance.h"
 #include "edge/orient/diagnosis.h"
+#include "edge/orient/group_fits.h"
 
 namespace plumbline::orient {
 

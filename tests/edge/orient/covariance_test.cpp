@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "edge/orient/blunders.h"
+#include "edge/orient/group_fits.h"
 #include "edge/orient/local_frame_fit.h"
 #include "tests/edge/orient/small_network.h"
 

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "edge/orient/rays.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace plumbline::orient {
+namespace {
+
+constexpr double kWildHeight = 0.4;  // of the flying height, above or below the ground
+
+// Where a ray meets the horizontal plane z = height.
+std::optional<Eigen::Vector3d> on_plane(const Ray& ray, const State& state, double height) {
+  const geometry::Pose& pose = state.poses[at(ray.slot)];
+  const auto direction = geometry::ray_in_photo(state.interior, ray.pixel);
+  if (!direction) return std::nullopt;
+  const Eigen::Vector3d in_ground = pose.ground_from_photo * *direction;
+  if (!(in_ground.z() < 0)) return std::nullopt;
+  return pose.centre_m + in_ground * ((height - pose.centre_m.z()) / in_ground.z());
+}
+
+bool holds_with_one_ray(const Network& network, int point) {
+  return std::any_of(network.problem->control.begin(), network.problem->control.end(),
+                     [&](const Control& c) { return c.point == point; });
+}
+
+// A point that lost rays must keep three, and more than half: two rays always meet somewhere, and
+// what meets by chance meets far from the ground.
+bool holds_together(const Network& network, int point, std::ptrdiff_t good, int given) {
+  if (network.undetermined[at(point)]) return false;
+  if (holds_with_one_ray(network, point)) return good >= 1;
+  return good >= 2 && (good == given || (good >= 3 && 2 * good > given));
+}
+
+// A point of a known length that has no rays has nothing else to hold it: it stands aside, and the
+// length with it, until its rays come back.
+void couple(Network& network, int point, bool measured) {
+  const std::vector<int>& kept = network.layout.kept;
+  const auto place = std::find(kept.begin(), kept.end(), point);
+  if (place == kept.end()) return;
+  const bool held = measured || holds_with_one_ray(network, point);
+  network.layout.kept_of_point[at(point)] = held ? static_cast<int>(place - kept.begin()) : -1;
+}
+
+}  // namespace
+
+double squared_sigmas(const Ray& ray, const State& state) {
+  const auto residual = residual_of(ray, state);
+  if (!residual) return std::numeric_limits<double>::infinity();
+  return residual->squaredNorm() / (ray.sigma_px * ray.sigma_px);
+}
+
+double upper_median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+int reject_rays(Network& network, const State& state, double sigmas) {
+  int changed = 0;
+  for (int p = 0; p < network.points(); ++p) {
+    const int first = network.first_ray[at(p)], last = network.first_ray[at(p) + 1];
+    std::vector<bool> good;
+    for (int k = first; k < last; ++k) {
+      good.push_back(squared_sigmas(network.rays[at(k)], state) <= sigmas * sigmas);
+    }
+    const bool enough =
+        holds_together(network, p, std::count(good.begin(), good.end(), true), last - first);
+    for (int k = first; k < last; ++k) {
+      const bool use = enough && good[at(k - first)];
+      changed += use != network.rays[at(k)].used ? 1 : 0;
+      network.rays[at(k)].used = use;
+    }
+    couple(network, p, enough);
+  }
+  return changed;
+}
+
+void replant_wild_points(const Network& network, State& state) {
+  std::vector<double> heights, stations;
+  for (int p = 0; p < network.points(); ++p) {
+    if (used_rays(network, p) > 0) heights.push_back(state.points[at(p)].z());
+  }
+  for (const geometry::Pose& pose : state.poses) stations.push_back(pose.centre_m.z());
+  if (heights.empty() || stations.empty()) return;
+  const double ground = upper_median(heights);
+  const double limit = kWildHeight * std::abs(upper_median(stations) - ground);
+  for (int p = 0; p < network.points(); ++p) {
+    Eigen::Vector3d& point = state.points[at(p)];
+    if (std::abs(point.z() - ground) <= limit) continue;
+    std::vector<double> east, north;
+    for (int k = network.first_ray[at(p)]; k < network.first_ray[at(p) + 1]; ++k) {
+      if (const auto foot = on_plane(network.rays[at(k)], state, ground)) {
+        east.push_back(foot->x());
+        north.push_back(foot->y());
+      }
+    }
+    if (!east.empty()) point = {upper_median(east), upper_median(north), ground};
+  }
+}
+
+int drop_undetermined(Network& network, const NormalEquations& equations, double limit_m) {
+  int dropped = 0;
+  for (int p = 0; p < network.points(); ++p) {
+    const PointBlock& block = equations.points[at(p)];
+    if (!block.active) continue;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> modes(block.v, Eigen::EigenvaluesOnly);
+    if (modes.eigenvalues()[0] * limit_m * limit_m > 1) continue;
+    network.undetermined[at(p)] = true;
+    for (int k = network.first_ray[at(p)]; k < network.first_ray[at(p) + 1]; ++k) {
+      network.rays[at(k)].used = false;
+    }
+    ++dropped;
+  }
+  return dropped;
+}
+
+void drop_unprojectable(Network& network, const State& state) {
+  for (Ray& ray : network.rays) {
+    if (ray.used && !residual_of(ray, state)) ray.used = false;
+  }
+}
+
+}  // namespace plumbline::orient

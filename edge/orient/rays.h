@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+#include "edge/orient/network.h"
+#include "edge/orient/normal_equations.h"
+
+namespace plumbline::orient {
+
+// Squared residual of a ray in its sigmas; infinite where it cannot be projected.
+double squared_sigmas(const Ray& ray, const State& state);
+
+// The upper of the two medians. Reorders `values`, which must not be empty.
+double upper_median(std::vector<double>& values);
+
+// Rejects rays beyond `sigmas`, takes back those that have come within, and drops points left with
+// one ray that nothing else holds. Returns how many rays changed sides.
+int reject_rays(Network& network, const State& state, double sigmas);
+
+// Drops for good the points whose rays, poses given, leave them a sigma beyond `limit_m`. Returns
+// how many.
+int drop_undetermined(Network& network, const NormalEquations& equations, double limit_m);
+
+// Before a stage: a point that mismatches have thrown far above or below the ground goes back to
+// the median of its rays' intersections with the ground plane; left near its cameras it would
+// block every step.
+void replant_wild_points(const Network& network, State& state);
+
+// Before a stage: sets aside rays that cannot be projected at all.
+void drop_unprojectable(Network& network, const State& state);
+
+}  // namespace plumbline::orient
