@@ -78,6 +78,8 @@ class Adjustment {
   void orient_freely() {
     terms_.datum = Datum::kFree;
     terms_.bridle_interior = true;
+    // Velocities are in metres of the ground, which the photos alone do not know.
+    network_.shared_mask[kLineTime] = network_.shared_mask[kDelay] = 0;
     const State start = state_;
     drop_unprojectable(network_, state_);
     for (const double scale : kCrude) {
@@ -106,6 +108,9 @@ class Adjustment {
     terms_.bridle_interior = false;
     terms_.station_weights.assign(at(network_.slots()), 1.0);
     state_ = aligned(network_, state_, terms_);
+    network_.shared_mask = shared_mask_of(problem_);
+    state_.line_time_s = problem_.camera.line_time_us * kSecondsPerMicrosecond;
+    state_.delay_s = problem_.delay.seconds;
     datum_ = state_;
     for (const double scale : kSharp) {
       minimise_from(datum_, {scale, options_.max_iterations, kRobustTolerance});

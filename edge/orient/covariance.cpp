@@ -45,8 +45,8 @@ std::optional<NetworkCovariance> NetworkCovariance::of(const Network& network,
   auto inverse = inverse_of(reduced_matrix(equations, 0));
   if (!inverse) return std::nullopt;
   out.common_ = std::move(*inverse);
-  for (int i = 0; i < geometry::kInteriorCount; ++i) {
-    if (network.interior_mask[i] != 0) continue;
+  for (int i = 0; i < kShared; ++i) {
+    if (network.shared_mask[i] != 0) continue;
     out.common_.row(i).setZero();
     out.common_.col(i).setZero();
   }
@@ -102,7 +102,7 @@ Eigen::Matrix2d NetworkCovariance::pixel_covariance(const Network& network, cons
                                                     const RayLinear& linear,
                                                     const PointSpread& spread) const {
   std::vector<int> columns;
-  for (int i = 0; i < geometry::kInteriorCount; ++i) columns.push_back(i);
+  for (int i = 0; i < kShared; ++i) columns.push_back(i);
   for (int i = 0; i < Layout::kPose; ++i) columns.push_back(network.layout.photo(ray.slot) + i);
   const Eigen::Matrix2d crossed =
       linear.by_point * spread.with_common(Eigen::all, columns) * linear.by_common.transpose();

@@ -27,7 +27,7 @@ double mean_redundancy(const Network& network) {
     rays += used;
     points += used > 0 ? 1 : 0;
   }
-  const double unknowns = 3.0 * points + 1.0 * network.layout.columns();
+  const double unknowns = 3.0 * points + 1.0 * network.adjusted_columns();
   return std::clamp(1 - unknowns / std::max(1.0, 2.0 * rays), 0.1, 1.0);
 }
 

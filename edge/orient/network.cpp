@@ -23,14 +23,21 @@ double first_sigma(const Observation& o) {
   return o.sigma_px;
 }
 
+// The velocity of the camera is taken as that of the antenna.
+Eigen::Vector3d centre_by_line_time(const Problem& problem, const Observation& o) {
+  const auto& velocity = problem.photos[at(o.photo)].velocity_in_enu_m_s;
+  if (!velocity) return Eigen::Vector3d::Zero();
+  return *velocity * (o.pixel.y() - (problem.camera.height_px - 1) / 2.0);
+}
+
 void collect_rays(Network& network) {
   const Problem& problem = *network.problem;
   for (std::size_t k = 0; k < problem.observations.size(); ++k) {
     const Observation& o = problem.observations[k];
     const int slot = network.slot_of_photo[static_cast<std::size_t>(o.photo)];
     if (slot < 0) continue;
-    network.rays.push_back(
-        {slot, o.point, o.pixel, first_sigma(o), o.group, static_cast<int>(k), true});
+    network.rays.push_back({slot, o.point, o.pixel, first_sigma(o), o.group, static_cast<int>(k),
+                            true, centre_by_line_time(problem, o)});
   }
   std::stable_sort(network.rays.begin(), network.rays.end(), [](const Ray& a, const Ray& b) {
     return std::tie(a.point, a.slot) < std::tie(b.point, b.slot);
@@ -59,19 +66,23 @@ void keep_coupled_points(Network& network) {
   for (const Control& control : problem.control) keep(control.point);
 }
 
-geometry::InteriorVector mask_of(const geometry::Camera& camera) {
-  const geometry::InteriorVector spread =
+}  // namespace
+
+SharedVector shared_mask_of(const Problem& problem) {
+  const geometry::Camera& camera = problem.camera;
+  SharedVector spread;
+  spread.head<geometry::kInteriorCount>() =
       camera.covariance ? geometry::InteriorVector(camera.covariance->diagonal()) : camera.sigma;
+  spread[kLineTime] = camera.line_time_sigma_us;
+  spread[kDelay] = problem.delay.sigma_s;
   return (spread.array() > 0).cast<double>();
 }
-
-}  // namespace
 
 Network make_network(const Problem& problem, std::vector<int> photo_of_slot) {
   Network network;
   network.problem = &problem;
   network.undetermined.assign(problem.point_names.size(), false);
-  network.interior_mask = mask_of(problem.camera);
+  network.shared_mask = shared_mask_of(problem);
   network.photo_of_slot = std::move(photo_of_slot);
   network.slot_of_photo.assign(problem.photos.size(), -1);
   network.layout.slots = static_cast<int>(network.photo_of_slot.size());

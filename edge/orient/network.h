@@ -9,6 +9,14 @@
 
 namespace plumbline::orient {
 
+// Columns that all photos share: the ten of geometry::Interior, then two that tie time to space.
+enum SharedColumn {
+  kLineTime = geometry::kInteriorCount,  // of the rolling shutter, seconds per row
+  kDelay,                                // of the exposures behind the stations' clock, seconds
+  kShared
+};
+using SharedVector = Eigen::Matrix<double, kShared, 1>;
+
 // One image ray that the adjustment works with.
 struct Ray {
   int slot = 0;   // photo, counted among those that are oriented
@@ -18,6 +26,9 @@ struct Ray {
   ImageGroup group = ImageGroup::kTies;
   int observation = 0;  // index in Problem::observations
   bool used = true;     // false: rejected as a blunder
+  // What the camera's centre moves by per second of line time: its velocity times the rows from
+  // the middle one, for which the pose is, to the one measured. Zero where no velocity is known.
+  Eigen::Vector3d centre_by_line_time_m_s = Eigen::Vector3d::Zero();
 };
 
 // The values of all unknowns.
@@ -25,9 +36,16 @@ struct State {
   geometry::InteriorVector interior = geometry::InteriorVector::Zero();
   std::vector<geometry::Pose> poses;    // by slot
   std::vector<Eigen::Vector3d> points;  // by point
+  double line_time_s = 0;               // seconds per row
+  double delay_s = 0;
+
+  // Where the camera was when it took the row of `ray`.
+  Eigen::Vector3d centre_of(const Ray& ray) const {
+    return poses[at(ray.slot)].centre_m + line_time_s * ray.centre_by_line_time_m_s;
+  }
 };
 
-// Columns of the reduced system: interior (10), photos (centre 3, rotation increment 3), then
+// Columns of the reduced system: shared (12), photos (centre 3, rotation increment 3), then
 // the points that other terms couple ("kept": those of lengths and control). All other points are
 // eliminated one by one.
 struct Layout {
@@ -36,7 +54,7 @@ struct Layout {
   std::vector<int> kept_of_point;  // -1: eliminated
 
   static constexpr int kPose = 6;
-  int photo(int slot) const { return geometry::kInteriorCount + kPose * slot; }
+  int photo(int slot) const { return kShared + kPose * slot; }
   int kept_point(int kept_index) const { return photo(slots) + 3 * kept_index; }
   int columns() const { return kept_point(static_cast<int>(kept.size())); }
 };
@@ -55,17 +73,24 @@ struct Network {
   double ties_design_effect = 1;
   Layout layout;
   // 1 for a parameter that is adjusted, 0 for one that is held fixed.
-  geometry::InteriorVector interior_mask = geometry::InteriorVector::Ones();
+  SharedVector shared_mask = SharedVector::Ones();
 
   const Photo& photo(int slot) const {
     return problem->photos[static_cast<std::size_t>(photo_of_slot[static_cast<std::size_t>(slot)])];
   }
   int slots() const { return layout.slots; }
   int points() const { return static_cast<int>(first_ray.size()) - 1; }
+  // Unknowns of the reduced system: its columns without those held fixed.
+  int adjusted_columns() const {
+    return layout.columns() - static_cast<int>((shared_mask.array() == 0).count());
+  }
 };
 
 // The network of the photos given by `photo_of_slot`. Observations of other photos are left out.
 Network make_network(const Problem& problem, std::vector<int> photo_of_slot);
+
+// The mask of what a problem leaves free: whatever has a prior sigma.
+SharedVector shared_mask_of(const Problem& problem);
 
 // Rays of a point that are still used.
 int used_rays(const Network& network, int point);

@@ -15,10 +15,10 @@ namespace {
 using geometry::kInteriorCount;
 
 // Photo-frame point q = R' (P - C). For the increment R <- exp([d]x) R:
-// dq = R' (dP - dC) + R' [P - C]x dd.
+// dq = R' (dP - dC) + R' [P - C]x dd; the C of a row moves with line time, not that of the pose.
 bool linearise(const Network& network, const Ray& ray, const State& state, RayLinear& out) {
   const geometry::Pose& pose = state.poses[at(ray.slot)];
-  const Eigen::Vector3d from_centre = state.points[at(ray.point)] - pose.centre_m;
+  const Eigen::Vector3d from_centre = state.points[at(ray.point)] - state.centre_of(ray);
   const Eigen::Matrix3d photo_from_ground = pose.ground_from_photo.transpose();
   const auto projection =
       geometry::project_with_derivatives(state.interior, photo_from_ground * from_centre);
@@ -28,9 +28,11 @@ bool linearise(const Network& network, const Ray& ray, const State& state, RayLi
   out.information = 1 / (ray.sigma_px * ray.sigma_px * effect);
   out.residual = projection->pixel - ray.pixel;
   out.by_point.noalias() = projection->by_point * photo_from_ground;
-  out.by_common.leftCols<kInteriorCount>() =
-      projection->by_interior * network.interior_mask.asDiagonal();
-  out.by_common.middleCols<3>(kInteriorCount) = -out.by_point;
+  out.by_common.leftCols<kInteriorCount>() = projection->by_interior;
+  out.by_common.col(kLineTime) = -out.by_point * ray.centre_by_line_time_m_s;
+  out.by_common.col(kDelay).setZero();
+  out.by_common.leftCols<kShared>() *= network.shared_mask.asDiagonal();
+  out.by_common.middleCols<3>(kShared) = -out.by_point;
   out.by_common.rightCols<3>().noalias() = out.by_point * geometry::cross_matrix(from_centre);
   return true;
 }
@@ -61,10 +63,10 @@ void add_term(const Term& term, NormalEquations& out) {
   }
 }
 
-// The columns that the rays of one point touch: interior, its photos, and itself if it is kept.
+// The columns that the rays of one point touch: shared, its photos, and itself if it is kept.
 std::vector<int> columns_of(const Network& network, int point) {
-  std::vector<int> columns(kInteriorCount);
-  for (int i = 0; i < kInteriorCount; ++i) columns[at(i)] = i;
+  std::vector<int> columns(kShared);
+  for (int i = 0; i < kShared; ++i) columns[at(i)] = i;
   int last_slot = -1;
   for (int k = network.first_ray[at(point)]; k < network.first_ray[at(point) + 1]; ++k) {
     const Ray& ray = network.rays[at(k)];
@@ -102,7 +104,7 @@ void add_point(const Network& network, const std::vector<RayLinear>& rays, int p
   block.e.setZero(width, 3);
   Eigen::MatrixXd common = Eigen::MatrixXd::Zero(width, width);
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(width);
-  Eigen::Index photo_at = kInteriorCount - Layout::kPose;
+  Eigen::Index photo_at = kShared - Layout::kPose;
   int last_slot = -1;
   for (int k = network.first_ray[at(point)]; k < network.first_ray[at(point) + 1]; ++k) {
     const RayLinear& ray = rays[at(k)];
@@ -110,27 +112,27 @@ void add_point(const Network& network, const std::vector<RayLinear>& rays, int p
     if (network.rays[at(k)].slot != last_slot) photo_at += Layout::kPose;
     last_slot = network.rays[at(k)].slot;
     if (!ray.active) continue;
-    const auto interior = ray.by_common.leftCols<kInteriorCount>();
+    const auto shared = ray.by_common.leftCols<kShared>();
     const auto pose = ray.by_common.rightCols<Layout::kPose>();
     const double w = ray.information;
-    common.topLeftCorner<kInteriorCount, kInteriorCount>() += w * interior.transpose() * interior;
-    common.block<kInteriorCount, Layout::kPose>(0, photo_at) += w * interior.transpose() * pose;
+    common.topLeftCorner<kShared, kShared>() += w * shared.transpose() * shared;
+    common.block<kShared, Layout::kPose>(0, photo_at) += w * shared.transpose() * pose;
     common.block<Layout::kPose, Layout::kPose>(photo_at, photo_at) += w * pose.transpose() * pose;
-    gradient.head<kInteriorCount>() += w * interior.transpose() * ray.residual;
+    gradient.head<kShared>() += w * shared.transpose() * ray.residual;
     gradient.segment<Layout::kPose>(photo_at) += w * pose.transpose() * ray.residual;
-    block.e.topRows<kInteriorCount>() += w * interior.transpose() * ray.by_point;
+    block.e.topRows<kShared>() += w * shared.transpose() * ray.by_point;
     block.e.middleRows<Layout::kPose>(photo_at) += w * pose.transpose() * ray.by_point;
     block.v += w * ray.by_point.transpose() * ray.by_point;
     block.gradient += w * ray.by_point.transpose() * ray.residual;
   }
-  common.bottomLeftCorner(width - kInteriorCount, kInteriorCount) =
-      common.topRightCorner(kInteriorCount, width - kInteriorCount).transpose();
+  common.bottomLeftCorner(width - kShared, kShared) =
+      common.topRightCorner(kShared, width - kShared).transpose();
   scatter(block.columns, common, out.n);
   for (Eigen::Index i = 0; i < width; ++i) {
     out.gradient[block.columns[static_cast<std::size_t>(i)]] += gradient[i];
   }
   const int kept = network.layout.kept_of_point[at(point)];
-  block.active = kept < 0 && width > kInteriorCount;
+  block.active = kept < 0 && width > kShared;
   if (kept >= 0) put_kept_point(network.layout.kept_point(kept), block, out);
 }
 
@@ -175,7 +177,7 @@ std::optional<Eigen::Vector2d> residual_of(const Ray& ray, const State& state) {
   const geometry::Pose& pose = state.poses[at(ray.slot)];
   const auto pixel =
       geometry::project(state.interior, pose.ground_from_photo.transpose() *
-                                            (state.points[at(ray.point)] - pose.centre_m));
+                                            (state.points[at(ray.point)] - state.centre_of(ray)));
   if (!pixel) return std::nullopt;
   return *pixel - ray.pixel;
 }
@@ -272,6 +274,8 @@ State moved_by(const Network& network, const State& state, const Step& step) {
   const Layout& layout = network.layout;
   const WholeTurn whole(layout, state, step);
   moved.interior += step.common.head<kInteriorCount>();
+  moved.line_time_s += step.common[kLineTime];
+  moved.delay_s += step.common[kDelay];
   for (int slot = 0; slot < layout.slots; ++slot) {
     geometry::Pose& pose = moved.poses[at(slot)];
     const int column = layout.photo(slot);

@@ -10,9 +10,9 @@
 
 namespace plumbline::orient {
 
-inline constexpr int kRayColumns = geometry::kInteriorCount + Layout::kPose;
+inline constexpr int kRayColumns = kShared + Layout::kPose;
 
-// A ray linearised: computed minus measured pixel, and its derivatives by (interior, pose of its
+// A ray linearised: computed minus measured pixel, and its derivatives by (shared, pose of its
 // photo) and by its point.
 struct RayLinear {
   bool active = false;     // used, and in front of its camera

@@ -82,6 +82,13 @@ struct LeverArm {
   double sigma_m = 0;  // of each component, common to the flight
 };
 
+// The exposure of a photo happens this much later than the instant its station was taken for.
+// A sigma of 0 holds it fixed.
+struct Delay {
+  double seconds = 0;
+  double sigma_s = 0;
+};
+
 struct Problem {
   geometry::Camera camera;
   std::vector<Photo> photos;
@@ -91,6 +98,7 @@ struct Problem {
   std::vector<Control> control;
   GnssErrorModel gnss;
   LeverArm lever_arm;
+  Delay delay;
 };
 
 }  // namespace plumbline::orient

@@ -19,7 +19,8 @@ std::optional<Eigen::Vector3d> on_plane(const Ray& ray, const State& state, doub
   if (!direction) return std::nullopt;
   const Eigen::Vector3d in_ground = pose.ground_from_photo * *direction;
   if (!(in_ground.z() < 0)) return std::nullopt;
-  return pose.centre_m + in_ground * ((height - pose.centre_m.z()) / in_ground.z());
+  const Eigen::Vector3d centre = state.centre_of(ray);
+  return centre + in_ground * ((height - centre.z()) / in_ground.z());
 }
 
 bool holds_with_one_ray(const Network& network, int point) {

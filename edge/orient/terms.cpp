@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "edge/base/units.h"
 #include "edge/geometry/rotation.h"
 #include "edge/orient/camera_prior.h"
 #include "edge/orient/datum_terms.h"
@@ -27,6 +28,16 @@ Term camera_term(const Network& network, const State& state, const TermOptions& 
   term.information = prior_information(network.problem->camera);
   if (options.bridle_interior) term.information += bridle_information(network.problem->camera);
   return term;
+}
+
+void add_line_time(const Network& network, const State& state, std::vector<Term>& terms) {
+  if (network.shared_mask[kLineTime] == 0) return;
+  const geometry::Camera& camera = network.problem->camera;
+  Term term = scalar_term("camera", {kLineTime},
+                          state.line_time_s - camera.line_time_us * kSecondsPerMicrosecond,
+                          camera.line_time_sigma_us * kSecondsPerMicrosecond);
+  term.jacobian(0, 0) = 1;
+  terms.push_back(std::move(term));
 }
 
 std::vector<int> pose_columns(const Network& network, const std::vector<int>& slots) {
@@ -187,6 +198,7 @@ std::vector<Term> linearised_terms(const Network& network, const State& state, c
                                    const TermOptions& options) {
   std::vector<Term> terms;
   terms.push_back(camera_term(network, state, options));
+  add_line_time(network, state, terms);
   for (int slot = 0; slot < network.slots(); ++slot) {
     add_attitude(network, state, slot, options, terms);
   }

@@ -82,8 +82,7 @@ TEST(NetworkCovariance, CarriesItselfToThePixelOfARay) {
     const Ray& ray = small.network.rays[k];
     const RayLinear& linear = both.rays.rays[k];
     Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(2, both.dense.cols());
-    jacobian.leftCols<geometry::kInteriorCount>() =
-        linear.by_common.leftCols<geometry::kInteriorCount>();
+    jacobian.leftCols<kShared>() = linear.by_common.leftCols<kShared>();
     jacobian.middleCols<6>(small.network.layout.photo(ray.slot)) = linear.by_common.rightCols<6>();
     jacobian.middleCols<3>(both.system.column_of_point(ray.point)) = linear.by_point;
     expect_alike(
@@ -106,7 +105,7 @@ TEST(NetworkCovariance, MakesRedundanciesAddUpToObservationsMinusUnknowns) {
     observations += fit.observations;
   }
   const double unknowns =
-      small.network.interior_mask.sum() + 6 * small.network.slots() + 3 * small.network.points();
+      small.network.shared_mask.sum() + 6 * small.network.slots() + 3 * small.network.points();
   EXPECT_NEAR(redundancy, observations - unknowns, 1e-5);
 }
 

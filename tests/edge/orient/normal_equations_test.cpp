@@ -13,7 +13,7 @@ using testing::nudged;
 using testing::SmallNetwork;
 
 double step_of(int column) {
-  const bool small = column > geometry::kPrincipalV && column < geometry::kInteriorCount;
+  const bool small = column > geometry::kPrincipalV && column < kShared;
   return small ? 1e-6 : 1e-4;
 }
 
@@ -24,13 +24,12 @@ TEST(NormalEquations, LineariseARayByTrueDerivatives) {
     const Ray& ray = small.network.rays[k];
     ASSERT_TRUE(rays.rays[k].active);
     for (int i = 0; i < kRayColumns; ++i) {
-      const bool of_camera = i < geometry::kInteriorCount;
-      if (of_camera && small.network.interior_mask[i] == 0) {
+      const bool shared = i < kShared;
+      if (shared && small.network.shared_mask[i] == 0) {
         EXPECT_EQ(rays.rays[k].by_common.col(i).norm(), 0);
         continue;
       }
-      const int column =
-          of_camera ? i : small.network.layout.photo(ray.slot) + i - geometry::kInteriorCount;
+      const int column = shared ? i : small.network.layout.photo(ray.slot) + i - kShared;
       const double h = step_of(column);
       const Eigen::Vector2d slope =
           (*residual_of(ray, nudged(small.network, small.state, column, h)) -
@@ -66,7 +65,8 @@ TEST(NormalEquations, GiveTheStepOfTheSystemWithoutElimination) {
   for (const std::uint64_t seed : {12U, 13U}) {
     const SmallNetwork small(seed);
     EXPECT_EQ(small.network.layout.kept.size(), 3U);
-    EXPECT_EQ(small.network.interior_mask[geometry::kAffinity], 0);
+    EXPECT_EQ(small.network.shared_mask[geometry::kAffinity], 0);
+    EXPECT_EQ(small.network.shared_mask[kLineTime], 1);
     expect_same_step(small, 0);
     expect_same_step(small, 2.5);
   }
@@ -105,7 +105,7 @@ TEST(NormalEquations, WeighRaysAsTheRobustCostFalls) {
   const RaysLinear rays = linearise_rays(small.network, small.state, kScale);
   const DenseSystem system(small.network, rays.rays, {});
   for (int column = 0; column < small.network.layout.columns(); ++column) {
-    if (column < geometry::kInteriorCount && small.network.interior_mask[column] == 0) continue;
+    if (column < kShared && small.network.shared_mask[column] == 0) continue;
     const double h = 0.01 * step_of(column);
     const double slope =
         (robust_cost(small, nudged(small.network, small.state, column, h), kScale) -

@@ -10,8 +10,6 @@
 namespace plumbline::orient::testing {
 namespace {
 
-using geometry::kInteriorCount;
-
 FlightPlan small_plan() {
   FlightPlan plan;
   plan.targets = 10;
@@ -30,7 +28,10 @@ void add_known(MadeFlight& flight) {
   problem.gnss = {0.02, 0.03, 30, 0.01, 0.02};
   for (std::size_t i = 0; i < problem.photos.size(); ++i) {
     problem.photos[i].time_s = 8.0 * static_cast<double>(i);
+    problem.photos[i].velocity_in_enu_m_s = Eigen::Vector3d(0.5, -0.2, 1.5);
   }
+  problem.camera.line_time_us = 20;
+  problem.camera.line_time_sigma_us = 8;
   problem.photos[2].attitude = AttitudePrior{{0.03, -0.05, 1.0}, {0.02, 0.03, 0.1}};
 }
 
@@ -43,7 +44,7 @@ SmallNetwork::SmallNetwork(std::uint64_t seed) {
   std::vector<int> photos(problem.photos.size());
   std::iota(photos.begin(), photos.end(), 0);
   network = make_network(problem, photos);
-  datum = {flight.interior, flight.poses, flight.points};
+  datum = {flight.interior, flight.poses, flight.points, 20e-6};
   state = datum;
   std::mt19937_64 random(seed + 1);
   std::normal_distribution<double> normal(0, 1);
@@ -57,6 +58,7 @@ SmallNetwork::SmallNetwork(std::uint64_t seed) {
   }
   for (Eigen::Vector3d& point : state.points) point += vector(0.05);
   state.interior[0] += 3;
+  state.line_time_s = 22e-6;
   options.tilt_sigma_rad = 2 * kRadPerDeg;
 }
 
@@ -75,8 +77,8 @@ DenseSystem::DenseSystem(const Network& network, const std::vector<RayLinear>& r
   for (std::size_t k = 0; k < rays.size(); ++k) {
     if (!rays[k].active) continue;
     std::vector<int> of_ray(kRayColumns + 3);
-    std::iota(of_ray.begin(), of_ray.begin() + kInteriorCount, 0);
-    std::iota(of_ray.begin() + kInteriorCount, of_ray.begin() + kRayColumns,
+    std::iota(of_ray.begin(), of_ray.begin() + kShared, 0);
+    std::iota(of_ray.begin() + kShared, of_ray.begin() + kRayColumns,
               network.layout.photo(network.rays[k].slot));
     std::iota(of_ray.begin() + kRayColumns, of_ray.end(), column_of_point(network.rays[k].point));
     Eigen::MatrixXd jacobian(2, kRayColumns + 3);
@@ -98,7 +100,7 @@ void DenseSystem::add(const std::vector<int>& columns, const Eigen::MatrixXd& ja
 std::vector<int> DenseSystem::adjusted() const {
   std::vector<int> columns;
   for (int c = 0; c < static_cast<int>(normal_.cols()); ++c) {
-    if (c >= kInteriorCount || network_.interior_mask[c] != 0) columns.push_back(c);
+    if (c >= kShared || network_.shared_mask[c] != 0) columns.push_back(c);
   }
   return columns;
 }

@@ -20,7 +20,7 @@ using testing::SmallNetwork;
 
 // A step that moves angles, metres and pixels alike well above rounding.
 double step_of(int column) {
-  const bool small = column > geometry::kPrincipalV && column < geometry::kInteriorCount;
+  const bool small = column > geometry::kPrincipalV && column < kShared;
   return small ? 1e-6 : 1e-5;
 }
 
