@@ -131,7 +131,7 @@ class Adjustment {
       minimise_from(datum_, {0, options_.max_iterations, tolerance});
       const RaysLinear rays = linearise_rays(network_, state_, 0);
       const auto terms = linearised_terms(network_, state_, datum_, terms_);
-      const auto equations = normal_equations(network_, rays.rays, terms);
+      const auto equations = normal_equations(network_, state_, 0, terms);
       const auto covariance = NetworkCovariance::of(network_, equations);
       if (!covariance) {
         return Error{
@@ -176,9 +176,8 @@ class Adjustment {
   }
 
   int drop_far_points() {
-    const RaysLinear rays = linearise_rays(network_, state_, 0);
     const double limit = kFarPoint * std::abs(flying_height(network_, state_));
-    return drop_undetermined(network_, normal_equations(network_, rays.rays, {}), limit);
+    return drop_undetermined(network_, normal_equations(network_, state_, 0, {}), limit);
   }
 
   bool reject_station(const std::vector<Term>& terms, const NetworkCovariance& covariance) {

@@ -4,6 +4,8 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
+#include "edge/orient/step.h"
+
 namespace plumbline::orient {
 namespace {
 
@@ -19,13 +21,13 @@ std::optional<Eigen::MatrixXd> inverse_of(const Eigen::MatrixXd& reduced) {
   return scale.asDiagonal() * symmetric * scale.asDiagonal();
 }
 
-PointFactor eliminated(const PointBlock& block) {
+PointFactor eliminated(const NormalEquations& equations, const PointLanes& points, int lane) {
   PointFactor factor;
-  factor.own = block.v.inverse();
+  factor.own = normal_of(points, lane).inverse();
   if (!factor.own.allFinite()) return factor;
   factor.measured = true;
-  factor.columns = block.columns;
-  factor.by_common = -(block.e * factor.own).transpose();
+  factor.columns = equations.columns_of_group[at(points.group)];
+  factor.by_common = -(coupling_of(equations, points, lane) * factor.own).transpose();
   return factor;
 }
 
@@ -51,12 +53,20 @@ std::optional<NetworkCovariance> NetworkCovariance::of(const Network& network,
     out.common_.col(i).setZero();
   }
   out.points_.resize(at(network.points()));
-  for (int p = 0; p < network.points(); ++p) {
+  out.measured_by_group_.resize(network.groups.size());
+  for (const PointLanes& points : equations.points) {
+    for (int lane = 0; lane < points.count; ++lane) {
+      const int p = points.point[at(lane)];
+      if (used_rays(network, p) < 2) continue;
+      out.points_[at(p)] = eliminated(equations, points, lane);
+      if (out.points_[at(p)].measured) out.measured_by_group_[at(points.group)].push_back(p);
+    }
+  }
+  for (const int p : network.layout.kept) {
     const int kept_index = network.layout.kept_of_point[at(p)];
-    if (kept_index >= 0)
-      out.points_[at(p)] = kept(network.layout.kept_point(kept_index));
-    else if (used_rays(network, p) >= 2)
-      out.points_[at(p)] = eliminated(equations.points[at(p)]);
+    if (kept_index < 0) continue;
+    out.points_[at(p)] = kept(network.layout.kept_point(kept_index));
+    out.measured_by_group_.push_back({p});
   }
   return out;
 }
@@ -69,6 +79,22 @@ Eigen::MatrixXd NetworkCovariance::common_block(const std::vector<int>& rows,
 Eigen::Matrix3d NetworkCovariance::point_covariance(int index) const {
   const PointFactor& f = point(index);
   return f.own + f.by_common * common_block(f.columns, f.columns) * f.by_common.transpose();
+}
+
+std::vector<Eigen::Matrix3d> NetworkCovariance::point_covariances() const {
+  std::vector<Eigen::Matrix3d> out(points_.size(), Eigen::Matrix3d::Zero());
+  for (const std::vector<int>& points : measured_by_group_) {
+    if (points.empty()) continue;
+    const std::vector<int>& columns = point(points.front()).columns;
+    const Eigen::MatrixXd common = common_block(columns, columns);
+    Eigen::Matrix<double, 3, Eigen::Dynamic> product(3, common.cols());
+    for (const int p : points) {
+      const PointFactor& f = point(p);
+      product.noalias() = f.by_common * common;
+      out[at(p)] = f.own + product * f.by_common.transpose();
+    }
+  }
+  return out;
 }
 
 Eigen::MatrixXd NetworkCovariance::joint(const std::vector<int>& points) const {

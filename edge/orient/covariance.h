@@ -37,6 +37,8 @@ class NetworkCovariance final : public PointCovariances {
   int points() const { return static_cast<int>(points_.size()); }
 
   Eigen::Matrix3d point_covariance(int index) const;
+  // Of all points at once; zero where a point is not measured.
+  std::vector<Eigen::Matrix3d> point_covariances() const;
   // by_common of `index` times the common covariance times `right` (columns x k).
   Eigen::MatrixXd joint(const std::vector<int>& points) const override;
   PointSpread spread(int index) const;
@@ -49,6 +51,7 @@ class NetworkCovariance final : public PointCovariances {
 
   Eigen::MatrixXd common_;
   std::vector<PointFactor> points_;
+  std::vector<std::vector<int>> measured_by_group_;  // points whose factors have the same columns
 };
 
 }  // namespace plumbline::orient

@@ -2,8 +2,11 @@
 #include "edge/orient/minimise.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 #include "edge/orient/normal_equations.h"
+#include "edge/orient/step.h"
 
 namespace plumbline::orient {
 namespace {
@@ -15,56 +18,53 @@ constexpr double kNearlyUndamped = 1e-3;
 // What summing some ten thousand squares leaves.
 constexpr double kRounding = 1e-11;
 
-struct Evaluated {
-  RaysLinear rays;
-  std::vector<Term> terms;
-  double cost = 0;
-};
-
 class Minimiser {
  public:
   Minimiser(const Network& network, const State& start, const TermOptions& terms,
             const MinimiseOptions& options)
-      : network_(network), start_(start), terms_(terms), options_(options) {}
+      : network_(network),
+        start_(start),
+        options_of_terms_(terms),
+        options_(options),
+        bundles_(bundles_of(network)) {}
 
   Minimum run(const State& from) {
     minimum_.state = from;
-    current_ = evaluate(from);
+    terms_ = linearised_terms(network_, from, start_, options_of_terms_);
+    minimum_.cost = cost(from, terms_);
     while (!minimum_.converged && minimum_.iterations < options_.max_iterations) {
-      const NormalEquations equations =
-          normal_equations(network_, current_.rays.rays, current_.terms);
+      normal_equations(network_, bundles_, minimum_.state, options_.cauchy_scale, terms_,
+                       equations_);
       ++minimum_.iterations;
-      if (!step_down(equations)) break;
+      if (!step_down()) break;
     }
-    minimum_.cost = current_.cost;
     return minimum_;
   }
 
  private:
-  Evaluated evaluate(const State& state) const {
-    Evaluated out{linearise_rays(network_, state, options_.cauchy_scale),
-                  linearised_terms(network_, state, start_, terms_), 0};
-    out.cost = out.rays.cost + cost_of(out.terms);
-    return out;
+  double cost(const State& state, const std::vector<Term>& terms) const {
+    return cost_of(network_, bundles_, state, options_.cauchy_scale) + cost_of(terms);
   }
 
   // Raises the damping until a step lowers the cost. False where none does.
-  bool step_down(const NormalEquations& equations) {
+  bool step_down() {
     for (; lambda_ <= kMostLambda; lambda_ *= 8) {
-      const auto step = solve(equations, lambda_);
+      const auto step = solve(equations_, lambda_);
       if (!step) continue;
-      const State trial = moved_by(network_, minimum_.state, *step);
-      Evaluated there = evaluate(trial);
-      if (!(there.cost <= current_.cost)) {
+      State trial = moved_by(network_, minimum_.state, *step);
+      auto terms = linearised_terms(network_, trial, start_, options_of_terms_);
+      const double there = cost(trial, terms);
+      if (!(there <= minimum_.cost)) {
         // At the bottom, rounding alone may lift the cost.
-        if (there.cost - current_.cost <= kRounding * current_.cost) minimum_.converged = true;
+        if (there - minimum_.cost <= kRounding * minimum_.cost) minimum_.converged = true;
         if (minimum_.converged) return true;
         continue;
       }
-      const double gain = current_.cost - there.cost;
-      minimum_.converged = gain <= options_.tolerance * current_.cost && lambda_ < kNearlyUndamped;
-      minimum_.state = trial;
-      current_ = std::move(there);
+      const double gain = minimum_.cost - there;
+      minimum_.converged = gain <= options_.tolerance * minimum_.cost && lambda_ < kNearlyUndamped;
+      minimum_.state = std::move(trial);
+      minimum_.cost = there;
+      terms_ = std::move(terms);
       lambda_ = std::max(lambda_ / 8, kLeastLambda);
       return true;
     }
@@ -73,10 +73,12 @@ class Minimiser {
 
   const Network& network_;
   const State& start_;
-  const TermOptions& terms_;
+  const TermOptions& options_of_terms_;
   const MinimiseOptions& options_;
+  const Bundles bundles_;
   Minimum minimum_;
-  Evaluated current_;
+  std::vector<Term> terms_;
+  NormalEquations equations_;
   double lambda_ = kFirstLambda;
 };
 

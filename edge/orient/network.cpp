@@ -2,6 +2,7 @@
 #include "edge/orient/network.h"
 
 #include <algorithm>
+#include <map>
 #include <tuple>
 
 namespace plumbline::orient {
@@ -66,6 +67,21 @@ void keep_coupled_points(Network& network) {
   for (const Control& control : problem.control) keep(control.point);
 }
 
+void group_points(Network& network) {
+  std::map<std::pair<bool, std::vector<int>>, std::vector<int>> by_photos;
+  for (int p = 0; p < network.points(); ++p) {
+    std::vector<int> slots;
+    for (int k = network.first_ray[at(p)]; k < network.first_ray[at(p) + 1]; ++k) {
+      slots.push_back(network.rays[at(k)].slot);
+    }
+    const bool kept = network.layout.kept_of_point[at(p)] >= 0;
+    if (!slots.empty()) by_photos[{kept, std::move(slots)}].push_back(p);
+  }
+  for (auto& [key, points] : by_photos) {
+    network.groups.push_back({key.second, std::move(points), key.first});
+  }
+}
+
 }  // namespace
 
 SharedVector shared_mask_of(const Problem& problem) {
@@ -92,6 +108,7 @@ Network make_network(const Problem& problem, std::vector<int> photo_of_slot) {
   }
   collect_rays(network);
   keep_coupled_points(network);
+  group_points(network);
   return network;
 }
 

@@ -59,6 +59,14 @@ struct Layout {
   int columns() const { return kept_point(static_cast<int>(kept.size())); }
 };
 
+// Points that the same photos see, used or not: their equations have the same columns.
+struct PointGroup {
+  std::vector<int>
+      slots;  // of each point's rays, in their order; twice where a photo sees it twice
+  std::vector<int> points;  // ascending
+  bool kept = false;        // they are columns of the reduced system
+};
+
 // The part of a problem that can be adjusted: photos that are tied together, and rays sorted by
 // point.
 struct Network {
@@ -72,6 +80,7 @@ struct Network {
   // By which the variance of ties grows for what neighbouring ones share.
   double ties_design_effect = 1;
   Layout layout;
+  std::vector<PointGroup> groups;  // of the points that have rays
   // 1 for a parameter that is adjusted, 0 for one that is held fixed.
   SharedVector shared_mask = SharedVector::Ones();
 

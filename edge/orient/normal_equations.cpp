@@ -1,41 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "edge/orient/normal_equations.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Geometry>
-#include <Eigen/LU>
-#include <algorithm>
 #include <cmath>
-
-#include "edge/geometry/rotation.h"
 
 namespace plumbline::orient {
 namespace {
-
-using geometry::kInteriorCount;
-
-// Photo-frame point q = R' (P - C). For the increment R <- exp([d]x) R:
-// dq = R' (dP - dC) + R' [P - C]x dd; the C of a row moves with line time, not that of the pose.
-bool linearise(const Network& network, const Ray& ray, const State& state, RayLinear& out) {
-  const geometry::Pose& pose = state.poses[at(ray.slot)];
-  const Eigen::Vector3d from_centre = state.points[at(ray.point)] - state.centre_of(ray);
-  const Eigen::Matrix3d photo_from_ground = pose.ground_from_photo.transpose();
-  const auto projection =
-      geometry::project_with_derivatives(state.interior, photo_from_ground * from_centre);
-  if (!projection) return false;
-  out.active = true;
-  const double effect = ray.group == ImageGroup::kTies ? network.ties_design_effect : 1;
-  out.information = 1 / (ray.sigma_px * ray.sigma_px * effect);
-  out.residual = projection->pixel - ray.pixel;
-  out.by_point.noalias() = projection->by_point * photo_from_ground;
-  out.by_common.leftCols<kInteriorCount>() = projection->by_interior;
-  out.by_common.col(kLineTime) = -out.by_point * ray.centre_by_line_time_m_s;
-  out.by_common.col(kDelay).setZero();
-  out.by_common.leftCols<kShared>() *= network.shared_mask.asDiagonal();
-  out.by_common.middleCols<3>(kShared) = -out.by_point;
-  out.by_common.rightCols<3>().noalias() = out.by_point * geometry::cross_matrix(from_centre);
-  return true;
-}
 
 // Costs as much as a residual of so many sigmas.
 constexpr double kUnprojectableSigmas = 1e5;
@@ -46,8 +15,48 @@ double robust_cost(double squared_sigmas, double cauchy_scale) {
   return c2 * std::log1p(squared_sigmas / c2);
 }
 
-double robust_weight(double squared_sigmas, double cauchy_scale) {
-  return cauchy_scale == 0 ? 1 : 1 / (1 + squared_sigmas / (cauchy_scale * cauchy_scale));
+// Of each lane, what its ray weighs once robustly weighted.
+Lanes weight_of(const SeenRays& rays, double cauchy_scale) {
+  if (cauchy_scale == 0) return rays.information;
+  const Lanes squared_sigmas = (rays.u * rays.u + rays.v * rays.v) * rays.information;
+  return rays.information / (1 + squared_sigmas / (cauchy_scale * cauchy_scale));
+}
+
+double cost_of(const BundleRays& measured, const SeenRays& rays, double cauchy_scale) {
+  const Lanes squared_sigmas = (rays.u * rays.u + rays.v * rays.v) * rays.information;
+  double cost = 0;
+  if (cauchy_scale == 0) {
+    cost = squared_sigmas.sum();
+  } else {
+    for (const double square : squared_sigmas) cost += robust_cost(square, cauchy_scale);
+  }
+  const auto lost = (rays.hidden && measured.information > 0).count();
+  if (lost == 0) return cost;
+  return cost + static_cast<double>(lost) *
+                    robust_cost(kUnprojectableSigmas * kUnprojectableSigmas, cauchy_scale);
+}
+
+// Calls visit(bundle, ray of the bundle, measured, seen) for every ray lane of the network.
+template <typename Visit>
+void for_each_ray(const Network& network, const Bundles& bundles, const State& state,
+                  const Visit& visit) {
+  for (const Bundle& bundle : bundles.bundles) {
+    const Lanes3 points = points_of(bundle, state);
+    const int rays = static_cast<int>(network.groups[at(bundle.group)].slots.size());
+    for (int k = 0; k < rays; ++k) {
+      const BundleRays& measured = bundles.rays[at(bundle.first_ray + k)];
+      visit(bundle, k, measured, seen(network, measured, points, state));
+    }
+  }
+}
+
+// The adjusted ones among the shared columns that rays know of.
+std::vector<int> shared_columns(const Network& network) {
+  std::vector<int> columns;
+  for (int i = 0; i < kDelay; ++i) {
+    if (network.shared_mask[i] != 0) columns.push_back(i);
+  }
+  return columns;
 }
 
 void add_term(const Term& term, NormalEquations& out) {
@@ -58,117 +67,169 @@ void add_term(const Term& term, NormalEquations& out) {
     const int row = term.columns[static_cast<std::size_t>(i)];
     out.gradient[row] += g[i];
     for (Eigen::Index j = 0; j < n.cols(); ++j) {
-      out.n(row, term.columns[static_cast<std::size_t>(j)]) += n(i, j);
+      const int column = term.columns[static_cast<std::size_t>(j)];
+      if (column <= row) out.n(row, column) += n(i, j);
     }
   }
 }
 
-// The columns that the rays of one point touch: shared, its photos, and itself if it is kept.
-std::vector<int> columns_of(const Network& network, int point) {
-  std::vector<int> columns(kShared);
-  for (int i = 0; i < kShared; ++i) columns[at(i)] = i;
-  int last_slot = -1;
-  for (int k = network.first_ray[at(point)]; k < network.first_ray[at(point) + 1]; ++k) {
-    const Ray& ray = network.rays[at(k)];
-    if (!ray.used || ray.slot == last_slot) continue;
-    last_slot = ray.slot;
-    for (int i = 0; i < Layout::kPose; ++i) columns.push_back(network.layout.photo(ray.slot) + i);
-  }
-  return columns;
-}
+Lanes product(const PixelLanes& a, const PixelLanes& b) { return a.u * b.u + a.v * b.v; }
 
-void scatter(const std::vector<int>& columns, const Eigen::MatrixXd& block, Eigen::MatrixXd& n) {
-  for (Eigen::Index j = 0; j < block.cols(); ++j) {
-    for (Eigen::Index i = 0; i < block.rows(); ++i) {
-      n(columns[static_cast<std::size_t>(i)], columns[static_cast<std::size_t>(j)]) += block(i, j);
+// Sums the rays into the equations, bundle by bundle. With J the derivatives of a ray by
+// its columns (shared, pose), A by its point and r its residual, all weighted: N += J'J, E += J'A,
+// V += A'A, gc += J'r, gp += A'r.
+class Assembly {
+ public:
+  Assembly(const Network& network, const State& state, double cauchy_scale, NormalEquations& out)
+      : network_(network),
+        state_(state),
+        cauchy_scale_(cauchy_scale),
+        shared_(shared_columns(network)),
+        of_slot_(at(network.slots()), Products::Zero()),
+        out_(out) {}
+
+  void run(const Bundles& bundles) {
+    prepare(bundles);
+    for (const Bundle& bundle : bundles.bundles) add_bundle(bundles, bundle);
+    for (int slot = 0; slot < network_.slots(); ++slot) put_photo(slot);
+  }
+
+ private:
+  // Of one photo's rays: (shared, pose, residual)' (shared, pose, residual), its lower triangle.
+  static constexpr int kProducts = kRayColumns + 1;
+  using Products = Eigen::Matrix<double, kProducts, kProducts>;
+
+  int shared() const { return static_cast<int>(shared_.size()); }
+
+  void prepare(const Bundles& bundles) {
+    const int columns = network_.layout.columns();
+    out_.n.setZero(columns, columns);
+    out_.gradient.setZero(columns);
+    out_.point_count = at(network_.points());
+    out_.points.clear();
+    out_.columns_of_group.resize(network_.groups.size());
+    for (std::size_t g = 0; g < network_.groups.size(); ++g) {
+      std::vector<int>& of_group = out_.columns_of_group[g];
+      of_group = shared_;
+      for (const int slot : network_.groups[g].slots) {
+        for (int i = 0; i < Layout::kPose; ++i) of_group.push_back(network_.layout.photo(slot) + i);
+      }
+    }
+    std::size_t rows = 0;
+    for (const Bundle& b : bundles.bundles) rows += out_.columns_of_group[at(b.group)].size();
+    out_.e.resize(rows);
+  }
+
+  void add_bundle(const Bundles& bundles, const Bundle& bundle) {
+    const PointGroup& group = network_.groups[at(bundle.group)];
+    PointLanes block{bundle.group, bundle.count, bundle.point, {}, {}, next_e_};
+    block.v.fill(Lanes::Zero());
+    block.gradient.fill(Lanes::Zero());
+    Lanes3* e = &out_.e[next_e_];
+    for (int i = 0; i < shared(); ++i) e[i].fill(Lanes::Zero());
+    const Lanes3 points = points_of(bundle, state_);
+    for (std::size_t k = 0; k < group.slots.size(); ++k) {
+      const BundleRays& measured = bundles.rays[at(bundle.first_ray) + k];
+      Lanes3* e_pose = e + shared() + Layout::kPose * static_cast<int>(k);
+      add_rays(measured, seen(network_, measured, points, state_), block, e, e_pose);
+    }
+    if (group.kept) {
+      put_kept(block, e);
+      return;
+    }
+    out_.points.push_back(block);
+    next_e_ += out_.columns_of_group[at(bundle.group)].size();
+  }
+
+  void add_rays(const BundleRays& measured, const SeenRays& rays, PointLanes& block, Lanes3* e,
+                Lanes3* e_pose) {
+    const Lanes scale = weight_of(rays, cauchy_scale_).sqrt();
+    differentiate(network_, rays, measured, state_, scale, linear_);
+    const PixelLanes residual{rays.u * scale, rays.v * scale};
+    const auto& a = linear_.by_point;
+    for (int i = 0, entry = 0; i < 3; ++i) {
+      for (int j = 0; j <= i; ++j) {
+        const Lanes w = product(a[at(i)], a[at(j)]);
+        block.v[at(entry++)] += w;
+        // Where the photo moves, the point moves the other way.
+        e_pose[i][at(j)] = -w;
+        e_pose[j][at(i)] = -w;
+      }
+      block.gradient[at(i)] += product(a[at(i)], residual);
+    }
+    for (std::size_t j = 0; j < 3; ++j) {
+      for (int i = 3; i < Layout::kPose; ++i) {
+        e_pose[i][j] = product(linear_.by_common[at(kShared + i)], a[j]);
+      }
+      for (int i = 0; i < shared(); ++i) {
+        e[i][j] += product(linear_.by_common[at(shared_[at(i)])], a[j]);
+      }
+    }
+    add_products(residual, of_slot_[at(measured.slot)]);
+  }
+
+  void add_products(const PixelLanes& residual, Products& to) const {
+    std::array<const PixelLanes*, kProducts> columns{};
+    int count = 0;
+    for (const int i : shared_) columns[at(count++)] = &linear_.by_common[at(i)];
+    for (int i = kShared; i < kRayColumns; ++i) columns[at(count++)] = &linear_.by_common[at(i)];
+    columns[at(count++)] = &residual;
+    for (int i = 0; i < count; ++i) {
+      for (int j = 0; j <= i; ++j) to(i, j) += product(*columns[at(i)], *columns[at(j)]).sum();
     }
   }
-}
 
-void put_kept_point(int first_column, const PointBlock& block, NormalEquations& out) {
-  out.n.block<3, 3>(first_column, first_column) += block.v;
-  out.gradient.segment<3>(first_column) += block.gradient;
-  for (Eigen::Index i = 0; i < block.e.rows(); ++i) {
-    const int row = block.columns[static_cast<std::size_t>(i)];
-    out.n.block<1, 3>(row, first_column) += block.e.row(i);
-    out.n.block<3, 1>(first_column, row) += block.e.row(i).transpose();
-  }
-}
-
-// Sums the rays of one point into its block and into the common part of the system.
-void add_point(const Network& network, const std::vector<RayLinear>& rays, int point,
-               NormalEquations& out) {
-  PointBlock& block = out.points[at(point)];
-  block.columns = columns_of(network, point);
-  const auto width = static_cast<Eigen::Index>(block.columns.size());
-  block.e.setZero(width, 3);
-  Eigen::MatrixXd common = Eigen::MatrixXd::Zero(width, width);
-  Eigen::VectorXd gradient = Eigen::VectorXd::Zero(width);
-  Eigen::Index photo_at = kShared - Layout::kPose;
-  int last_slot = -1;
-  for (int k = network.first_ray[at(point)]; k < network.first_ray[at(point) + 1]; ++k) {
-    const RayLinear& ray = rays[at(k)];
-    if (!network.rays[at(k)].used) continue;
-    if (network.rays[at(k)].slot != last_slot) photo_at += Layout::kPose;
-    last_slot = network.rays[at(k)].slot;
-    if (!ray.active) continue;
-    const auto shared = ray.by_common.leftCols<kShared>();
-    const auto pose = ray.by_common.rightCols<Layout::kPose>();
-    const double w = ray.information;
-    common.topLeftCorner<kShared, kShared>() += w * shared.transpose() * shared;
-    common.block<kShared, Layout::kPose>(0, photo_at) += w * shared.transpose() * pose;
-    common.block<Layout::kPose, Layout::kPose>(photo_at, photo_at) += w * pose.transpose() * pose;
-    gradient.head<kShared>() += w * shared.transpose() * ray.residual;
-    gradient.segment<Layout::kPose>(photo_at) += w * pose.transpose() * ray.residual;
-    block.e.topRows<kShared>() += w * shared.transpose() * ray.by_point;
-    block.e.middleRows<Layout::kPose>(photo_at) += w * pose.transpose() * ray.by_point;
-    block.v += w * ray.by_point.transpose() * ray.by_point;
-    block.gradient += w * ray.by_point.transpose() * ray.residual;
-  }
-  common.bottomLeftCorner(width - kShared, kShared) =
-      common.topRightCorner(kShared, width - kShared).transpose();
-  scatter(block.columns, common, out.n);
-  for (Eigen::Index i = 0; i < width; ++i) {
-    out.gradient[block.columns[static_cast<std::size_t>(i)]] += gradient[i];
-  }
-  const int kept = network.layout.kept_of_point[at(point)];
-  block.active = kept < 0 && width > kShared;
-  if (kept >= 0) put_kept_point(network.layout.kept_point(kept), block, out);
-}
-
-// Columns that nothing touches (a camera parameter held fixed) stay where they are.
-void pin_untouched(Eigen::MatrixXd& n) {
-  for (Eigen::Index i = 0; i < n.rows(); ++i) {
-    if (n(i, i) == 0) n(i, i) = 1;
-  }
-}
-
-// Marquardt scaling; a diagonal far below its neighbours' is floored, or damping would not reach
-// a direction that the data hardly see.
-template <typename Matrix>
-void damp(Matrix& m, double lambda) {
-  const double floor = 1e-9 * m.diagonal().maxCoeff();
-  for (Eigen::Index i = 0; i < m.rows(); ++i) m(i, i) += lambda * std::max(m(i, i), floor);
-}
-
-Eigen::MatrixXd eliminate(const NormalEquations& equations, double lambda,
-                          Eigen::VectorXd* right_side) {
-  Eigen::MatrixXd s = equations.n;
-  pin_untouched(s);
-  for (Eigen::Index i = 0; i < s.rows(); ++i) s(i, i) *= 1 + lambda;
-  for (const PointBlock& block : equations.points) {
-    if (!block.active) continue;
-    Eigen::Matrix3d v = block.v;
-    damp(v, lambda);
-    const Eigen::Matrix<double, Eigen::Dynamic, 3> y = block.e * v.inverse();
-    scatter(block.columns, -y * block.e.transpose(), s);
-    if (right_side == nullptr) continue;
-    const Eigen::VectorXd g = y * block.gradient;
-    for (Eigen::Index i = 0; i < g.size(); ++i) {
-      (*right_side)[block.columns[static_cast<std::size_t>(i)]] += g[i];
+  void put_photo(int slot) {
+    std::vector<int> columns = shared_;
+    for (int i = 0; i < Layout::kPose; ++i) columns.push_back(network_.layout.photo(slot) + i);
+    const Products& products = of_slot_[at(slot)];
+    const int count = static_cast<int>(columns.size());
+    for (int i = 0; i < count; ++i) {
+      for (int j = 0; j <= i; ++j) out_.n(columns[at(i)], columns[at(j)]) += products(i, j);
+      out_.gradient[columns[at(i)]] += products(count, i);
     }
   }
-  return s;
+
+  void put_kept(const PointLanes& block, const Lanes3* e) {
+    const std::vector<int>& columns = out_.columns_of_group[at(block.group)];
+    for (int lane = 0; lane < block.count; ++lane) {
+      const int kept = network_.layout.kept_of_point[at(block.point[at(lane)])];
+      if (kept < 0) continue;
+      const int first = network_.layout.kept_point(kept);
+      for (int i = 0, entry = 0; i < 3; ++i) {
+        for (int j = 0; j <= i; ++j) out_.n(first + i, first + j) += block.v[at(entry++)][lane];
+        out_.gradient[first + i] += block.gradient[at(i)][lane];
+        for (std::size_t c = 0; c < columns.size(); ++c) {
+          out_.n(first + i, columns[c]) += e[c][at(i)][lane];
+        }
+      }
+    }
+  }
+
+  const Network& network_;
+  const State& state_;
+  double cauchy_scale_;
+  std::vector<int> shared_;
+  std::vector<Products> of_slot_;
+  NormalEquations& out_;
+  std::size_t next_e_ = 0;
+  LinearRays linear_;
+};
+
+RayLinear ray_in_lane(const Network& network, const SeenRays& rays, const LinearRays& linear,
+                      int lane) {
+  RayLinear out;
+  out.active = true;
+  out.residual = {rays.u[lane], rays.v[lane]};
+  for (int i = 0; i < kRayColumns; ++i) {
+    const PixelLanes& by = linear.by_common[at(i)];
+    const bool moves = i >= kShared || (network.shared_mask[i] != 0 && i != kDelay);
+    out.by_common.col(i) << (moves ? by.u[lane] : 0), (moves ? by.v[lane] : 0);
+  }
+  for (int i = 0; i < 3; ++i) {
+    out.by_point.col(i) << linear.by_point[at(i)].u[lane], linear.by_point[at(i)].v[lane];
+  }
+  return out;
 }
 
 }  // namespace
@@ -185,112 +246,62 @@ std::optional<Eigen::Vector2d> residual_of(const Ray& ray, const State& state) {
 RaysLinear linearise_rays(const Network& network, const State& state, double cauchy_scale) {
   RaysLinear out;
   out.rays.resize(network.rays.size());
-  for (std::size_t k = 0; k < out.rays.size(); ++k) {
-    if (!network.rays[k].used) continue;
-    RayLinear& ray = out.rays[k];
-    if (!linearise(network, network.rays[k], state, ray)) {
-      out.cost += robust_cost(kUnprojectableSigmas * kUnprojectableSigmas, cauchy_scale);
-      continue;
-    }
-    const double squared_sigmas = ray.residual.squaredNorm() * ray.information;
-    out.cost += robust_cost(squared_sigmas, cauchy_scale);
-    ray.information *= robust_weight(squared_sigmas, cauchy_scale);
-  }
+  LinearRays linear;
+  for_each_ray(network, bundles_of(network), state,
+               [&](const Bundle& bundle, int k, const BundleRays& measured, const SeenRays& rays) {
+                 out.cost += cost_of(measured, rays, cauchy_scale);
+                 differentiate(network, rays, measured, state, Lanes::Ones(), linear);
+                 const Lanes weight = weight_of(rays, cauchy_scale);
+                 for (int lane = 0; lane < bundle.count; ++lane) {
+                   if (!(weight[lane] > 0)) continue;
+                   const int index = network.first_ray[at(bundle.point[at(lane)])] + k;
+                   out.rays[at(index)] = ray_in_lane(network, rays, linear, lane);
+                   out.rays[at(index)].information = weight[lane];
+                 }
+               });
   return out;
 }
 
-NormalEquations normal_equations(const Network& network, const std::vector<RayLinear>& rays,
+double cost_of(const Network& network, const Bundles& bundles, const State& state,
+               double cauchy_scale) {
+  double cost = 0;
+  for_each_ray(network, bundles, state,
+               [&](const Bundle&, int, const BundleRays& measured, const SeenRays& rays) {
+                 cost += cost_of(measured, rays, cauchy_scale);
+               });
+  return cost;
+}
+
+void normal_equations(const Network& network, const Bundles& bundles, const State& state,
+                      double cauchy_scale, const std::vector<Term>& terms, NormalEquations& out) {
+  Assembly(network, state, cauchy_scale, out).run(bundles);
+  for (const Term& term : terms) add_term(term, out);
+}
+
+NormalEquations normal_equations(const Network& network, const State& state, double cauchy_scale,
                                  const std::vector<Term>& terms) {
   NormalEquations out;
-  const int columns = network.layout.columns();
-  out.n.setZero(columns, columns);
-  out.gradient.setZero(columns);
-  out.points.resize(at(network.points()));
-  for (int point = 0; point < network.points(); ++point) add_point(network, rays, point, out);
-  for (const Term& term : terms) add_term(term, out);
+  normal_equations(network, bundles_of(network), state, cauchy_scale, terms, out);
   return out;
 }
 
-Eigen::MatrixXd reduced_matrix(const NormalEquations& equations, double lambda) {
-  return eliminate(equations, lambda, nullptr);
+Eigen::Matrix3d normal_of(const PointLanes& points, int lane) {
+  const auto& v = points.v;
+  Eigen::Matrix3d out;
+  out << v[0][lane], v[1][lane], v[3][lane], v[1][lane], v[2][lane], v[4][lane], v[3][lane],
+      v[4][lane], v[5][lane];
+  return out;
 }
 
-std::optional<Step> solve(const NormalEquations& equations, double lambda) {
-  Eigen::VectorXd right_side = -equations.gradient;
-  Eigen::MatrixXd s = eliminate(equations, lambda, &right_side);
-  const Eigen::VectorXd scale = s.diagonal().cwiseAbs().cwiseSqrt().cwiseMax(1e-150).cwiseInverse();
-  s = scale.asDiagonal() * s * scale.asDiagonal();
-  const Eigen::LLT<Eigen::MatrixXd> factor(s);
-  if (factor.info() != Eigen::Success) return std::nullopt;
-  Step step;
-  step.common = scale.asDiagonal() * factor.solve(scale.asDiagonal() * right_side);
-  if (!step.common.allFinite()) return std::nullopt;
-  step.points.assign(equations.points.size(), Eigen::Vector3d::Zero());
-  for (std::size_t p = 0; p < equations.points.size(); ++p) {
-    const PointBlock& block = equations.points[p];
-    if (!block.active) continue;
-    Eigen::Vector3d g = -block.gradient;
-    for (Eigen::Index i = 0; i < block.e.rows(); ++i) {
-      g -= block.e.row(i).transpose() * step.common[block.columns[static_cast<std::size_t>(i)]];
-    }
-    Eigen::Matrix3d v = block.v;
-    damp(v, lambda);
-    step.points[p] = v.inverse() * g;
-    if (!step.points[p].allFinite()) return std::nullopt;
+Eigen::Matrix<double, Eigen::Dynamic, 3> coupling_of(const NormalEquations& equations,
+                                                     const PointLanes& points, int lane) {
+  const auto rows = equations.columns_of_group[at(points.group)].size();
+  Eigen::Matrix<double, Eigen::Dynamic, 3> out(static_cast<Eigen::Index>(rows), 3);
+  for (std::size_t r = 0; r < rows; ++r) {
+    const Lanes3& e = equations.e[points.first_e + r];
+    out.row(static_cast<Eigen::Index>(r)) << e[0][lane], e[1][lane], e[2][lane];
   }
-  return step;
-}
-
-// What all photos turn by together is followed as the rotation it is, about the middle of the
-// stations, and only the rest as a straight line: a turn of the whole changes no image, and as a
-// straight line it could take but tiny steps before the points left their rays. To first order the
-// same as adding the step.
-class WholeTurn {
- public:
-  WholeTurn(const Layout& layout, const State& state, const Step& step) {
-    for (int slot = 0; slot < layout.slots; ++slot) {
-      turn_rad_ += step.common.segment<3>(layout.photo(slot) + 3) / layout.slots;
-      centre_m_ += state.poses[at(slot)].centre_m / layout.slots;
-    }
-    rotation_ = geometry::rotation_by(turn_rad_);
-  }
-
-  Eigen::Vector3d place(const Eigen::Vector3d& from, const Eigen::Vector3d& step) const {
-    const Eigen::Vector3d arm = from - centre_m_;
-    return centre_m_ + rotation_ * (arm + step - turn_rad_.cross(arm));
-  }
-  Eigen::Matrix3d attitude(const Eigen::Matrix3d& from, const Eigen::Vector3d& step_rad) const {
-    return rotation_ * geometry::rotation_by(step_rad - turn_rad_) * from;
-  }
-
- private:
-  Eigen::Vector3d turn_rad_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d centre_m_ = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d rotation_ = Eigen::Matrix3d::Identity();
-};
-
-State moved_by(const Network& network, const State& state, const Step& step) {
-  State moved = state;
-  const Layout& layout = network.layout;
-  const WholeTurn whole(layout, state, step);
-  moved.interior += step.common.head<kInteriorCount>();
-  moved.line_time_s += step.common[kLineTime];
-  moved.delay_s += step.common[kDelay];
-  for (int slot = 0; slot < layout.slots; ++slot) {
-    geometry::Pose& pose = moved.poses[at(slot)];
-    const int column = layout.photo(slot);
-    pose.centre_m = whole.place(pose.centre_m, step.common.segment<3>(column));
-    pose.ground_from_photo =
-        whole.attitude(pose.ground_from_photo, step.common.segment<3>(column + 3));
-  }
-  for (std::size_t p = 0; p < moved.points.size(); ++p) {
-    const int kept = layout.kept_of_point[p];
-    const Eigen::Vector3d own =
-        kept >= 0 ? Eigen::Vector3d(step.common.segment<3>(layout.kept_point(kept)))
-                  : step.points[p];
-    moved.points[p] = whole.place(moved.points[p], own);
-  }
-  return moved;
+  return out;
 }
 
 }  // namespace plumbline::orient

@@ -2,15 +2,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <vector>
 
+#include "edge/orient/bundles.h"
 #include "edge/orient/network.h"
 #include "edge/orient/terms.h"
 
 namespace plumbline::orient {
-
-inline constexpr int kRayColumns = kShared + Layout::kPose;
 
 // A ray linearised: computed minus measured pixel, and its derivatives by (shared, pose of its
 // photo) and by its point.
@@ -33,40 +33,43 @@ struct RaysLinear {
 // camera) is inactive and costs more than any that can.
 RaysLinear linearise_rays(const Network& network, const State& state, double cauchy_scale);
 
+// What the used rays cost at `state`.
+double cost_of(const Network& network, const Bundles& bundles, const State& state,
+               double cauchy_scale);
+
 // Computed minus measured pixel; empty where the point cannot be projected.
 std::optional<Eigen::Vector2d> residual_of(const Ray& ray, const State& state);
 
-// A point about to be eliminated: V, g and E of  [N E; E' V] [dc; dp] = -[gc; gp].
-struct PointBlock {
-  bool active = false;
-  Eigen::Matrix3d v = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
-  std::vector<int> columns;  // of the reduced system, one per row of e
-  Eigen::Matrix<double, Eigen::Dynamic, 3> e;
+// The points of a bundle about to be eliminated: V, g and E of  [N E; E' V] [dc; dp] = -[gc; gp]
+// (Schur complement; Brown 1976), one point in each lane.
+struct PointLanes {
+  int group = 0;  // of Network::groups
+  int count = 0;
+  std::array<int, kLanes> point{};
+  std::array<Lanes, 6> v;  // xx, yx, yy, zx, zy, zz
+  Lanes3 gradient;
+  std::size_t first_e = 0;  // of NormalEquations::e: a row for each of its group's columns
 };
 
 struct NormalEquations {
-  Eigen::MatrixXd n;         // columns x columns, before elimination
+  Eigen::MatrixXd n;         // columns x columns before elimination; its lower triangle is filled
   Eigen::VectorXd gradient;  // of the reduced columns
-  std::vector<PointBlock> points;
+  std::vector<std::vector<int>> columns_of_group;  // that the rays of its points touch
+  std::vector<PointLanes> points;                  // group by group, without the kept ones
+  std::vector<Lanes3> e;
+  std::size_t point_count = 0;  // of the network
 };
 
-NormalEquations normal_equations(const Network& network, const std::vector<RayLinear>& rays,
+// The normal equations at `state` of the used rays, weighted as linearise_rays does, and of
+// `terms`. `out` keeps its memory from one call to the next.
+void normal_equations(const Network& network, const Bundles& bundles, const State& state,
+                      double cauchy_scale, const std::vector<Term>& terms, NormalEquations& out);
+NormalEquations normal_equations(const Network& network, const State& state, double cauchy_scale,
                                  const std::vector<Term>& terms);
 
-// A step of all unknowns.
-struct Step {
-  Eigen::VectorXd common;
-  std::vector<Eigen::Vector3d> points;
-};
-
-// Solves with Marquardt damping (1 + lambda) on every diagonal; the points are eliminated (Schur
-// complement). Empty where the damped system is not positive definite.
-std::optional<Step> solve(const NormalEquations& equations, double lambda);
-
-// The Schur complement over the eliminated points, undamped where lambda = 0.
-Eigen::MatrixXd reduced_matrix(const NormalEquations& equations, double lambda);
-
-State moved_by(const Network& network, const State& state, const Step& step);
+// The undamped 3x3 block of the point in `lane`, and its rows of E (columns of its group x 3).
+Eigen::Matrix3d normal_of(const PointLanes& points, int lane);
+Eigen::Matrix<double, Eigen::Dynamic, 3> coupling_of(const NormalEquations& equations,
+                                                     const PointLanes& points, int lane);
 
 }  // namespace plumbline::orient

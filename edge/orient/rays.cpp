@@ -105,16 +105,19 @@ void replant_wild_points(const Network& network, State& state) {
 
 int drop_undetermined(Network& network, const NormalEquations& equations, double limit_m) {
   int dropped = 0;
-  for (int p = 0; p < network.points(); ++p) {
-    const PointBlock& block = equations.points[at(p)];
-    if (!block.active) continue;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> modes(block.v, Eigen::EigenvaluesOnly);
-    if (modes.eigenvalues()[0] * limit_m * limit_m > 1) continue;
-    network.undetermined[at(p)] = true;
-    for (int k = network.first_ray[at(p)]; k < network.first_ray[at(p) + 1]; ++k) {
-      network.rays[at(k)].used = false;
+  for (const PointLanes& points : equations.points) {
+    for (int lane = 0; lane < points.count; ++lane) {
+      const int p = points.point[at(lane)];
+      if (used_rays(network, p) == 0) continue;
+      const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> modes(normal_of(points, lane),
+                                                                 Eigen::EigenvaluesOnly);
+      if (modes.eigenvalues()[0] * limit_m * limit_m > 1) continue;
+      network.undetermined[at(p)] = true;
+      for (int k = network.first_ray[at(p)]; k < network.first_ray[at(p) + 1]; ++k) {
+        network.rays[at(k)].used = false;
+      }
+      ++dropped;
     }
-    ++dropped;
   }
   return dropped;
 }

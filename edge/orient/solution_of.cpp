@@ -149,10 +149,7 @@ Solution solution_of(const Finished& f, const Options& options) {
     solution.photos[at(f.network.photo_of_slot[at(slot)])] = oriented(f, slot);
   }
   solution.residuals = residuals_of(f);
-  std::vector<Eigen::Matrix3d> covariances(at(f.network.points()), Eigen::Matrix3d::Zero());
-  for (int p = 0; p < f.network.points(); ++p) {
-    if (f.covariance.point(p).measured) covariances[at(p)] = f.covariance.point_covariance(p);
-  }
+  const std::vector<Eigen::Matrix3d> covariances = f.covariance.point_covariances();
   const LocalFrameFit frame = fit_local_frame(f.network, f.state, f.covariance, covariances);
   fill_points(f, covariances, frame, solution);
 

@@ -1,167 +1,133 @@
 // SPDX-License-Identifier: MIT
 #include "tests/bench/ceres_adjustment.h"
 
-#include <ceres/ceres.h>
+#include <ceres/rotation.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Geometry>
+#include <cmath>
 #include <cstddef>
-#include <cstdint>
+#include <utility>
 
-#include "edge/base/units.h"
-#include "edge/geometry/rotation.h"
+#include "tests/bench/ceres_analytic.h"
+#include "tests/bench/ceres_costs.h"
 
 namespace plumbline::bench {
-
 namespace {
 
-constexpr int kInterior = geometry::kInteriorCount;
+// What the adjustment adds to any known variance; see edge/orient/terms.cpp.
+constexpr double kLeastVarianceM2 = 1e-8;
+// As minimise(): the last step is the one that lowers the cost by less than this share.
+constexpr double kTolerance = 1e-10;
 
-template <typename T>
-using Vector3 = Eigen::Matrix<T, 3, 1>;
-
-// The model of edge/geometry/camera.h, written a second time for automatic derivatives.
-template <typename T>
-Eigen::Matrix<T, 2, 1> project(const T* c, const Vector3<T>& in_photo) {
-  const T x = in_photo.x() / -in_photo.z();
-  const T y = -in_photo.y() / -in_photo.z();
-  const T r2 = x * x + y * y;
-  const T radial = T(1) + r2 * (c[geometry::kRadial1] +
-                                r2 * (c[geometry::kRadial2] + r2 * c[geometry::kRadial3]));
-  const T p1 = c[geometry::kTangential1];
-  const T p2 = c[geometry::kTangential2];
-  const T xd = x * radial + T(2) * p1 * x * y + p2 * (r2 + T(2) * x * x);
-  const T yd = y * radial + p1 * (r2 + T(2) * y * y) + T(2) * p2 * x * y;
-  const T f = c[geometry::kFocalLength];
-  return {c[geometry::kPrincipalU] + f * (xd + c[geometry::kSkew] * yd),
-          c[geometry::kPrincipalV] + f * (T(1) + c[geometry::kAffinity]) * yd};
+double sigma_of(const Eigen::Matrix3d& isotropic_m2) {
+  return std::sqrt(isotropic_m2(0, 0) + kLeastVarianceM2);
 }
-
-template <typename T>
-Eigen::Matrix<T, 3, 3> ground_from_photo(const T* angles) {
-  using Axis = Eigen::AngleAxis<T>;
-  return (Axis(angles[0], Vector3<T>::UnitX()) * Axis(angles[1], Vector3<T>::UnitY()) *
-          Axis(angles[2], Vector3<T>::UnitZ()))
-      .toRotationMatrix();
-}
-
-struct Reprojection {
-  template <typename T>
-  bool operator()(const T* interior, const T* photo, const T* point, T* residual) const {
-    const Vector3<T> ray(point[0] - photo[3], point[1] - photo[4], point[2] - photo[5]);
-    const Vector3<T> in_photo = ground_from_photo(photo).transpose() * ray;
-    const Eigen::Matrix<T, 2, 1> pixel = project(interior, in_photo);
-    residual[0] = (pixel[0] - T(measured.x())) / T(sigma_px);
-    residual[1] = (pixel[1] - T(measured.y())) / T(sigma_px);
-    return true;
-  }
-  Eigen::Vector2d measured;
-  double sigma_px;
-};
-
-// A station and the prior of tilt.
-struct PhotoPrior {
-  template <typename T>
-  bool operator()(const T* photo, T* residual) const {
-    const Vector3<T> difference(photo[3] - T(station.antenna_in_enu_m.x()),
-                                photo[4] - T(station.antenna_in_enu_m.y()),
-                                photo[5] - T(station.antenna_in_enu_m.z()));
-    Eigen::Map<Vector3<T>>(residual, 3) = whitening.cast<T>() * difference;
-    residual[3] = photo[0] / T(tilt_sigma_rad);
-    residual[4] = photo[1] / T(tilt_sigma_rad);
-    return true;
-  }
-  orient::Station station;
-  Eigen::Matrix3d whitening;
-  double tilt_sigma_rad;
-};
-
-struct InteriorPrior {
-  template <typename T>
-  bool operator()(const T* interior, T* residual) const {
-    for (int i = 0; i < kInterior; ++i) {
-      const bool held = camera.sigma[i] == 0;
-      residual[i] = held ? T(0) : (interior[i] - T(camera.interior[i])) / T(camera.sigma[i]);
-    }
-    return true;
-  }
-  geometry::Camera camera;
-};
-
-void add_reprojections(const orient::Problem& from, CeresState& state, ceres::Problem& to) {
-  for (const orient::Observation& seen : from.observations) {
-    to.AddResidualBlock(new ceres::AutoDiffCostFunction<Reprojection, 2, kInterior, 6, 3>(
-                            new Reprojection{seen.pixel, seen.sigma_px}),
-                        nullptr, state.interior.data(),
-                        state.photos[static_cast<std::size_t>(seen.photo)].data(),
-                        state.points[static_cast<std::size_t>(seen.point)].data());
-  }
-}
-
-void add_priors(const orient::Problem& from, double tilt_sigma_rad, CeresState& state,
-                ceres::Problem& to) {
-  for (std::size_t i = 0; i < from.photos.size(); ++i) {
-    const orient::Station& station = from.photos[i].station.value();
-    const Eigen::Matrix3d factor = station.covariance_m2.llt().matrixL();
-    to.AddResidualBlock(new ceres::AutoDiffCostFunction<PhotoPrior, 5, 6>(
-                            new PhotoPrior{station, factor.inverse(), tilt_sigma_rad}),
-                        nullptr, state.photos[i].data());
-  }
-  to.AddResidualBlock(new ceres::AutoDiffCostFunction<InteriorPrior, kInterior, kInterior>(
-                          new InteriorPrior{from.camera}),
-                      nullptr, state.interior.data());
-  std::vector<int> held;
-  for (int i = 0; i < kInterior; ++i) {
-    if (from.camera.sigma[i] == 0) held.push_back(i);
-  }
-  to.SetManifold(state.interior.data(), new ceres::SubsetManifold(kInterior, held));
-}
-
-// Small numbers in [-1, 1] without any library's opinion of randomness.
-class Jitter {
- public:
-  double operator()() {
-    state_ = state_ * 6364136223846793005ULL + 1442695040888963407ULL;
-    return static_cast<double>(state_ >> 33U) / static_cast<double>(1ULL << 30U) - 1;
-  }
-
- private:
-  std::uint64_t state_ = 1;
-};
 
 }  // namespace
 
-CeresState start_near_truth(const orient::testing::MadeFlight& flight) {
-  Jitter jitter;
-  CeresState state;
-  const geometry::InteriorVector& interior = flight.problem.camera.interior;
-  for (int i = 0; i < kInterior; ++i) state.interior[static_cast<std::size_t>(i)] = interior[i];
-  for (const geometry::Pose& pose : flight.poses) {
-    const auto angles = geometry::angles_of(pose.ground_from_photo);
-    const double off_rad = 0.5 * kRadPerDeg;
-    state.photos.push_back({angles.omega_rad + off_rad * jitter(),
-                            angles.phi_rad + off_rad * jitter(),
-                            angles.kappa_rad + off_rad * jitter(), pose.centre_m.x() + jitter(),
-                            pose.centre_m.y() + jitter(), pose.centre_m.z() + jitter()});
-  }
-  for (const Eigen::Vector3d& point : flight.points) {
-    state.points.push_back({point.x() + jitter(), point.y() + jitter(), point.z() + jitter()});
-  }
-  return state;
+struct CeresAdjustment::Photos {
+  PhotoFrames frames;
+};
+
+CeresAdjustment::CeresAdjustment(const MadeBlock& block, Derivatives derivatives) : block_(block) {
+  photos_.resize(block.start.poses.size());
+  points_.resize(block.start.points.size());
+  restart();
+  frames_ = std::make_unique<Photos>(Photos{PhotoFrames(photos_)});
+  ceres::Problem::Options options;
+  if (derivatives == Derivatives::kAnalytic) options.evaluation_callback = &frames_->frames;
+  problem_ = std::make_unique<ceres::Problem>(options);
+  add_reprojections(derivatives);
+  add_priors();
+  order_points_first();
 }
 
-bool solve_with_ceres(const orient::Problem& problem, double tilt_sigma_rad, CeresState& state) {
-  ceres::Problem ceres_problem;
-  add_reprojections(problem, state, ceres_problem);
-  add_priors(problem, tilt_sigma_rad, state, ceres_problem);
+CeresAdjustment::~CeresAdjustment() = default;
+
+void CeresAdjustment::restart() {
+  const orient::State& start = block_.start;
+  for (int i = 0; i < kInterior; ++i) interior_[at(i)] = start.interior[i];
+  for (std::size_t i = 0; i < photos_.size(); ++i) {
+    const Eigen::Matrix3d photo_from_ground = start.poses[i].ground_from_photo.transpose();
+    ceres::RotationMatrixToAngleAxis(photo_from_ground.data(), photos_[i].data());
+    Eigen::Map<Eigen::Vector3d>(photos_[i].data() + 3) = start.poses[i].centre_m;
+  }
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    Eigen::Map<Eigen::Vector3d>(points_[p].data()) = start.points[p];
+  }
+}
+
+void CeresAdjustment::add_reprojections(Derivatives derivatives) {
+  for (const orient::Observation& seen : block_.problem.observations) {
+    ceres::CostFunction* cost = nullptr;
+    if (derivatives == Derivatives::kAnalytic) {
+      cost = new AnalyticReprojection(seen.pixel, seen.sigma_px, frames_->frames[at(seen.photo)]);
+    } else {
+      cost = new ceres::AutoDiffCostFunction<Reprojection, 2, kInterior, 6, 3>(
+          new Reprojection{seen.pixel, seen.sigma_px});
+    }
+    problem_->AddResidualBlock(cost, nullptr, interior_.data(), photos_[at(seen.photo)].data(),
+                               points_[at(seen.point)].data());
+  }
+}
+
+void CeresAdjustment::add_priors() {
+  for (std::size_t i = 0; i < photos_.size(); ++i) {
+    const orient::Station& station = block_.problem.photos[i].station.value();
+    problem_->AddResidualBlock(new ceres::AutoDiffCostFunction<PhotoPrior, 5, 6>(new PhotoPrior{
+                                   station.antenna_in_enu_m, sigma_of(station.covariance_m2),
+                                   block_.terms.tilt_sigma_rad}),
+                               nullptr, photos_[i].data());
+  }
+  for (const orient::Control& control : block_.problem.control) {
+    problem_->AddResidualBlock(new ceres::AutoDiffCostFunction<ControlPrior, 3, 3>(new ControlPrior{
+                                   control.in_enu_m, sigma_of(control.covariance_m2)}),
+                               nullptr, points_[at(control.point)].data());
+  }
+  problem_->AddResidualBlock(new ceres::AutoDiffCostFunction<InteriorPrior, kInterior, kInterior>(
+                                 new InteriorPrior{block_.problem.camera}),
+                             nullptr, interior_.data());
+}
+
+void CeresAdjustment::order_points_first() {
+  order_ = std::make_shared<ceres::ParameterBlockOrdering>();
+  for (auto& point : points_) order_->AddElementToGroup(point.data(), 0);
+  for (auto& photo : photos_) order_->AddElementToGroup(photo.data(), 1);
+  order_->AddElementToGroup(interior_.data(), 1);
+}
+
+CeresResult CeresAdjustment::solve(ceres::LinearSolverType solver) {
   ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_SCHUR;
+  options.linear_solver_type = solver;
+  options.preconditioner_type = ceres::SCHUR_JACOBI;
+  options.linear_solver_ordering = order_;
   options.num_threads = 1;
-  options.max_num_iterations = 200;
+  options.max_num_iterations = 100;
+  options.function_tolerance = kTolerance;
+  options.gradient_tolerance = 1e-30;
+  options.parameter_tolerance = 1e-30;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
-  ceres::Solve(options, &ceres_problem, &summary);
-  return summary.termination_type == ceres::CONVERGENCE;
+  ceres::Solve(options, problem_.get(), &summary);
+  return {summary.termination_type == ceres::CONVERGENCE, 2 * summary.final_cost,
+          summary.num_successful_steps + summary.num_unsuccessful_steps};
+}
+
+bool CeresAdjustment::covariance_of_points(ceres::CovarianceAlgorithmType algorithm) {
+  ceres::Covariance::Options options;
+  options.algorithm_type = algorithm;
+  options.num_threads = 1;
+  covariance_ = std::make_unique<ceres::Covariance>(options);
+  std::vector<std::pair<const double*, const double*>> blocks;
+  blocks.reserve(points_.size());
+  for (const auto& point : points_) blocks.emplace_back(point.data(), point.data());
+  return covariance_->Compute(blocks, problem_.get());
+}
+
+std::array<double, 9> CeresAdjustment::point_covariance(int point) const {
+  std::array<double, 9> out{};
+  const double* block = points_[at(point)].data();
+  covariance_->GetCovarianceBlock(block, block, out.data());
+  return out;
 }
 
 }  // namespace plumbline::bench

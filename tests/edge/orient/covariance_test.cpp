@@ -24,7 +24,7 @@ struct Both {
       : rays(linearise_rays(small.network, small.state, 0)),
         terms(linearised_terms(small.network, small.state, small.datum, small.options)),
         factored(*NetworkCovariance::of(small.network,
-                                        normal_equations(small.network, rays.rays, terms))),
+                                        normal_equations(small.network, small.state, 0, terms))),
         system(small.network, rays.rays, terms),
         dense(system.covariance()) {}
 
@@ -72,6 +72,21 @@ TEST(NetworkCovariance, IsTheInverseOfTheWholeNormalMatrix) {
     for (const int p : points) {
       expect_alike(both.factored.point_covariance(p), both.dense_joint({p}), 1e-6);
     }
+  }
+}
+
+TEST(NetworkCovariance, IsThatInverseForPointsOfDifferentPhotosAllAtOnce) {
+  SmallNetwork small(28, 30);
+  std::erase_if(small.problem.observations,
+                [](const Observation& o) { return (o.point + o.photo) % 4 == 0; });
+  Observation again = small.problem.observations.front();
+  again.pixel.x() += 0.3;
+  small.problem.observations.push_back(again);
+  small.tie_again();
+  const Both both(small);
+  const auto covariances = both.factored.point_covariances();
+  for (const int p : all_points(small.network)) {
+    expect_alike(covariances[at(p)], both.dense_joint({p}), 1e-6);
   }
 }
 
@@ -148,9 +163,8 @@ TEST(LocalFrame, SplitsTheCovarianceAsTheDenseTransformationDoes) {
 
 TEST(NetworkCovariance, IsAbsentWhereNothingHoldsAPhoto) {
   SmallNetwork small(26);
-  const RaysLinear rays = linearise_rays(small.network, small.state, 0);
   EXPECT_FALSE(
-      NetworkCovariance::of(small.network, normal_equations(small.network, rays.rays, {})));
+      NetworkCovariance::of(small.network, normal_equations(small.network, small.state, 0, {})));
 }
 
 }  // namespace

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <vector>
+
 #include "tests/edge/orient/small_network.h"
 
 namespace plumbline::orient {
@@ -50,7 +53,7 @@ TEST(NormalEquations, LineariseARayByTrueDerivatives) {
 void expect_same_step(const SmallNetwork& small, double cauchy_scale) {
   const RaysLinear rays = linearise_rays(small.network, small.state, cauchy_scale);
   const auto terms = linearised_terms(small.network, small.state, small.datum, small.options);
-  const auto step = solve(normal_equations(small.network, rays.rays, terms), 0);
+  const auto step = solve(normal_equations(small.network, small.state, cauchy_scale, terms), 0);
   ASSERT_TRUE(step);
   const Step dense = DenseSystem(small.network, rays.rays, terms).step();
   for (Eigen::Index c = 0; c < step->common.size(); ++c) {
@@ -93,6 +96,70 @@ TEST(NormalEquations, GiveThatStepWithARayThatCannotBeProjected) {
   }
   ASSERT_FALSE(residual_of(lost, small.state));
   expect_same_step(small, 0);
+}
+
+// More points than are worked on side by side, and more of those than go into one product.
+TEST(NormalEquations, GiveThatStepOfManyPoints) { expect_same_step(SmallNetwork(17, 90), 2.5); }
+
+// Each photo misses points of its own: groups of a few points, some of one.
+void look_away(SmallNetwork& small) {
+  std::erase_if(small.problem.observations, [](const Observation& o) {
+    return (o.point + 2 * o.photo) % 5 == 0 || (o.photo == 1 && o.point % 3 == 0);
+  });
+  small.tie_again();
+}
+
+TEST(NormalEquations, GiveThatStepOfPointsSeenByDifferentPhotos) {
+  SmallNetwork small(18, 24);
+  look_away(small);
+  ASSERT_GE(small.network.groups.size(), 6U);
+  expect_same_step(small, 0);
+}
+
+TEST(NormalEquations, GiveThatStepOfPointsThatAPhotoSeesTwice) {
+  SmallNetwork small(19, 12);
+  for (const int point : {2, 3, 6}) {
+    Observation again = small.problem.observations[at(point)];
+    ASSERT_EQ(again.point, point);
+    again.pixel += Eigen::Vector2d(0.4, -0.2);
+    again.sigma_px *= 1.5;
+    small.problem.observations.push_back(again);
+  }
+  small.tie_again();
+  expect_same_step(small, 0);
+  expect_same_step(small, 2.5);
+}
+
+TEST(NormalEquations, TakeEachRowFromWhereTheCameraWasByThen) {
+  SmallNetwork small(20);
+  small.state.line_time_s = 100e-6;
+  const Ray& ray = small.network.rays[4];
+  const double rows = ray.pixel.y() - (small.problem.camera.height_px - 1) / 2.0;
+  State moved = small.state, still = small.state;
+  moved.line_time_s = still.line_time_s = 0;
+  moved.poses[at(ray.slot)].centre_m +=
+      100e-6 * rows * *small.network.photo(ray.slot).velocity_in_enu_m_s;
+  const Eigen::Vector2d residual = *residual_of(ray, small.state);
+  EXPECT_LT((residual - *residual_of(ray, moved)).norm(), 1e-9);
+  EXPECT_GT((residual - *residual_of(ray, still)).norm(), 0.1);
+}
+
+TEST(NormalEquations, CostWhatTheResidualsOfTheRaysSay) {
+  SmallNetwork small(27, 20);
+  small.network.rays[7].used = false;
+  for (const double scale : {0.0, 2.5}) {
+    double expected = 0;
+    for (const Ray& ray : small.network.rays) {
+      if (!ray.used) continue;
+      const double s2 =
+          residual_of(ray, small.state)->squaredNorm() / (ray.sigma_px * ray.sigma_px);
+      expected += scale == 0 ? s2 : scale * scale * std::log1p(s2 / (scale * scale));
+    }
+    const Bundles bundles = bundles_of(small.network);
+    const double cost = cost_of(small.network, bundles, small.state, scale);
+    EXPECT_NEAR(cost, expected, 1e-9 * expected);
+    EXPECT_NEAR(linearise_rays(small.network, small.state, scale).cost, expected, 1e-9 * expected);
+  }
 }
 
 double robust_cost(const SmallNetwork& small, const State& state, double scale) {

@@ -10,9 +10,9 @@
 namespace plumbline::orient::testing {
 namespace {
 
-FlightPlan small_plan() {
+FlightPlan small_plan(int targets) {
   FlightPlan plan;
-  plan.targets = 10;
+  plan.targets = targets;
   plan.tilt_sigma_deg = 4;
   plan.heading_sigma_deg = 3;
   return plan;
@@ -37,8 +37,8 @@ void add_known(MadeFlight& flight) {
 
 }  // namespace
 
-SmallNetwork::SmallNetwork(std::uint64_t seed) {
-  MadeFlight flight = make_flight(small_plan(), seed);
+SmallNetwork::SmallNetwork(std::uint64_t seed, int targets) {
+  MadeFlight flight = make_flight(small_plan(targets), seed);
   add_known(flight);
   problem = std::move(flight.problem);
   std::vector<int> photos(problem.photos.size());

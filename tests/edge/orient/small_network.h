@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "edge/orient/normal_equations.h"
+#include "edge/orient/step.h"
 #include "tests/edge/orient/made_flight.h"
 
 namespace plumbline::orient::testing {
@@ -12,9 +13,12 @@ namespace plumbline::orient::testing {
 // A climb small enough for dense matrices, with everything known that can be known, linearised
 // away from its minimum: tilts of degrees, points and camera off by a little.
 struct SmallNetwork {
-  explicit SmallNetwork(std::uint64_t seed);
+  explicit SmallNetwork(std::uint64_t seed, int targets = 10);
   SmallNetwork(const SmallNetwork&) = delete;
   SmallNetwork& operator=(const SmallNetwork&) = delete;
+
+  // After a change of the problem's observations.
+  void tie_again() { network = make_network(problem, network.photo_of_slot); }
 
   Problem problem;
   Network network;
