@@ -3,6 +3,8 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <algorithm>
+#include <numeric>
 
 #include "edge/orient/step.h"
 
@@ -39,6 +41,26 @@ PointFactor kept(int first_column) {
   return factor;
 }
 
+// The rows and columns `columns` of a symmetric matrix.
+Eigen::MatrixXd part_of(const Eigen::MatrixXd& whole, const std::vector<int>& columns) {
+  const auto size = static_cast<Eigen::Index>(columns.size());
+  Eigen::MatrixXd part(size, size);
+  for (Eigen::Index j = 0; j < size; ++j) {
+    const double* column = whole.col(columns[static_cast<std::size_t>(j)]).data();
+    double* to = part.col(j).data();
+    for (Eigen::Index i = 0; i < size; ++i) to[i] = column[columns[static_cast<std::size_t>(i)]];
+  }
+  return part;
+}
+
+std::vector<int> groups_of_points(const Network& network) {
+  std::vector<int> group_of_point(at(network.points()), -1);
+  for (std::size_t g = 0; g < network.groups.size(); ++g) {
+    for (const int p : network.groups[g].points) group_of_point[at(p)] = static_cast<int>(g);
+  }
+  return group_of_point;
+}
+
 }  // namespace
 
 std::optional<NetworkCovariance> NetworkCovariance::of(const Network& network,
@@ -52,21 +74,18 @@ std::optional<NetworkCovariance> NetworkCovariance::of(const Network& network,
     out.common_.row(i).setZero();
     out.common_.col(i).setZero();
   }
+  out.columns_of_group_ = equations.columns_of_group;
+  out.group_of_point_ = groups_of_points(network);
   out.points_.resize(at(network.points()));
-  out.measured_by_group_.resize(network.groups.size());
   for (const PointLanes& points : equations.points) {
     for (int lane = 0; lane < points.count; ++lane) {
       const int p = points.point[at(lane)];
-      if (used_rays(network, p) < 2) continue;
-      out.points_[at(p)] = eliminated(equations, points, lane);
-      if (out.points_[at(p)].measured) out.measured_by_group_[at(points.group)].push_back(p);
+      if (used_rays(network, p) >= 2) out.points_[at(p)] = eliminated(equations, points, lane);
     }
   }
   for (const int p : network.layout.kept) {
     const int kept_index = network.layout.kept_of_point[at(p)];
-    if (kept_index < 0) continue;
-    out.points_[at(p)] = kept(network.layout.kept_point(kept_index));
-    out.measured_by_group_.push_back({p});
+    if (kept_index >= 0) out.points_[at(p)] = kept(network.layout.kept_point(kept_index));
   }
   return out;
 }
@@ -78,23 +97,32 @@ Eigen::MatrixXd NetworkCovariance::common_block(const std::vector<int>& rows,
 
 Eigen::Matrix3d NetworkCovariance::point_covariance(int index) const {
   const PointFactor& f = point(index);
-  return f.own + f.by_common * common_block(f.columns, f.columns) * f.by_common.transpose();
+  return f.own + f.by_common * part_of(common_, f.columns) * f.by_common.transpose();
 }
 
 std::vector<Eigen::Matrix3d> NetworkCovariance::point_covariances() const {
   std::vector<Eigen::Matrix3d> out(points_.size(), Eigen::Matrix3d::Zero());
-  for (const std::vector<int>& points : measured_by_group_) {
-    if (points.empty()) continue;
-    const std::vector<int>& columns = point(points.front()).columns;
-    const Eigen::MatrixXd common = common_block(columns, columns);
-    Eigen::Matrix<double, 3, Eigen::Dynamic> product(3, common.cols());
-    for (const int p : points) {
-      const PointFactor& f = point(p);
-      product.noalias() = f.by_common * common;
-      out[at(p)] = f.own + product * f.by_common.transpose();
-    }
+  const std::vector<int>* columns = nullptr;
+  Eigen::MatrixXd common;
+  Eigen::Matrix<double, 3, Eigen::Dynamic> product;
+  for (const int p : by_group()) {
+    const PointFactor& f = point(p);
+    if (!f.measured) continue;
+    if (columns == nullptr || f.columns != *columns) common = part_of(common_, f.columns);
+    columns = &f.columns;
+    product.noalias() = f.by_common * common;
+    out[at(p)] = f.own + product * f.by_common.transpose();
   }
   return out;
+}
+
+// The points, those of the same columns one after the other.
+std::vector<int> NetworkCovariance::by_group() const {
+  std::vector<int> order(points_.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](int a, int b) { return group_of_point_[at(a)] < group_of_point_[at(b)]; });
+  return order;
 }
 
 Eigen::MatrixXd NetworkCovariance::joint(const std::vector<int>& points) const {
@@ -118,8 +146,14 @@ Eigen::MatrixXd NetworkCovariance::joint(const std::vector<int>& points) const {
 PointSpread NetworkCovariance::spread(int index) const {
   const PointFactor& f = point(index);
   PointSpread out;
-  out.with_common = f.by_common * common_(f.columns, Eigen::all);
-  out.own = f.own + out.with_common(Eigen::all, f.columns) * f.by_common.transpose();
+  out.columns = columns_of_group_[at(group_of_point_[at(index)])];
+  if (f.columns == out.columns) {
+    out.with_common.noalias() = f.by_common * part_of(common_, f.columns);
+    out.own = f.own + out.with_common * f.by_common.transpose();
+  } else {
+    out.with_common = f.by_common * common_block(f.columns, out.columns);
+    out.own = point_covariance(index);
+  }
   return out;
 }
 
@@ -127,14 +161,27 @@ PointSpread NetworkCovariance::spread(int index) const {
 Eigen::Matrix2d NetworkCovariance::pixel_covariance(const Network& network, const Ray& ray,
                                                     const RayLinear& linear,
                                                     const PointSpread& spread) const {
-  std::vector<int> columns;
-  for (int i = 0; i < kShared; ++i) columns.push_back(i);
-  for (int i = 0; i < Layout::kPose; ++i) columns.push_back(network.layout.photo(ray.slot) + i);
-  const Eigen::Matrix2d crossed =
-      linear.by_point * spread.with_common(Eigen::all, columns) * linear.by_common.transpose();
+  const int photo = network.layout.photo(ray.slot);
+  Eigen::Matrix<double, kRayColumns, kRayColumns> common;
+  common.topLeftCorner<kShared, kShared>() = common_.topLeftCorner<kShared, kShared>();
+  common.topRightCorner<kShared, Layout::kPose>() = common_.block<kShared, Layout::kPose>(0, photo);
+  common.bottomLeftCorner<Layout::kPose, kShared>() =
+      common_.block<Layout::kPose, kShared>(photo, 0);
+  common.bottomRightCorner<Layout::kPose, Layout::kPose>() =
+      common_.block<Layout::kPose, Layout::kPose>(photo, photo);
+  Eigen::Matrix<double, 3, kRayColumns> with_common = Eigen::Matrix<double, 3, kRayColumns>::Zero();
+  for (std::size_t c = 0; c < spread.columns.size(); ++c) {
+    const int column = spread.columns[c];
+    const int in_photo = column - photo;
+    if (column >= kShared && (in_photo < 0 || in_photo >= Layout::kPose)) continue;
+    with_common.col(column < kShared ? column : kShared + in_photo) =
+        spread.with_common.col(static_cast<Eigen::Index>(c));
+  }
+  const Eigen::Matrix<double, 2, kRayColumns> by_common = linear.by_common * common;
+  const Eigen::Matrix<double, 2, kRayColumns> by_point = linear.by_point * with_common;
+  const Eigen::Matrix2d crossed = by_point * linear.by_common.transpose();
   return linear.by_point * spread.own * linear.by_point.transpose() + crossed +
-         crossed.transpose() +
-         linear.by_common * common_block(columns, columns) * linear.by_common.transpose();
+         crossed.transpose() + by_common * linear.by_common.transpose();
 }
 
 }  // namespace plumbline::orient

@@ -20,9 +20,10 @@ struct PointFactor {
   Eigen::Matrix3d own = Eigen::Matrix3d::Zero();
 };
 
-// A point's covariance, and its covariance with every column of the reduced system.
+// A point's covariance, and its covariance with the columns that its rays touch.
 struct PointSpread {
   Eigen::Matrix3d own = Eigen::Matrix3d::Zero();
+  std::vector<int> columns;  // of the reduced system
   Eigen::Matrix<double, 3, Eigen::Dynamic> with_common;
 };
 
@@ -47,11 +48,13 @@ class NetworkCovariance final : public PointCovariances {
                                    const PointSpread& spread) const;
 
  private:
+  std::vector<int> by_group() const;
   Eigen::MatrixXd common_block(const std::vector<int>& rows, const std::vector<int>& cols) const;
 
   Eigen::MatrixXd common_;
   std::vector<PointFactor> points_;
-  std::vector<std::vector<int>> measured_by_group_;  // points whose factors have the same columns
+  std::vector<std::vector<int>> columns_of_group_;  // as NormalEquations'
+  std::vector<int> group_of_point_;                 // -1: no rays
 };
 
 }  // namespace plumbline::orient

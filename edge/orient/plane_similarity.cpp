@@ -9,13 +9,31 @@ namespace {
 
 constexpr int kSamples = 300;
 
+// Written out in real numbers: the product of complex ones looks for infinities.
+bool agrees(const PlaneMatch& match, const PlaneSimilarity& s, double tolerance) {
+  const double ar = s.a.real(), ai = s.a.imag(), x = match.first.real(), y = match.first.imag();
+  const double re = ar * x - ai * y + s.b.real() - match.second.real();
+  const double im = ar * y + ai * x + s.b.imag() - match.second.imag();
+  return re * re + im * im <= tolerance * tolerance;
+}
+
 std::vector<bool> agreeing(const std::vector<PlaneMatch>& matches, const PlaneSimilarity& s,
                            double tolerance) {
   std::vector<bool> agree(matches.size());
-  for (std::size_t i = 0; i < matches.size(); ++i) {
-    agree[i] = std::norm(s.a * matches[i].first + s.b - matches[i].second) <= tolerance * tolerance;
-  }
+  for (std::size_t i = 0; i < matches.size(); ++i) agree[i] = agrees(matches[i], s, tolerance);
   return agree;
+}
+
+// How many matches agree; any number up to `enough` where they are no more than that.
+int count_beyond(int enough, const std::vector<PlaneMatch>& matches, const PlaneSimilarity& s,
+                 double tolerance) {
+  int count = 0;
+  int left = static_cast<int>(matches.size());
+  for (const PlaneMatch& match : matches) {
+    count += agrees(match, s, tolerance) ? 1 : 0;
+    if (count + --left <= enough) break;
+  }
+  return count;
 }
 
 PlaneSimilarity through(const PlaneMatch& p, const PlaneMatch& q) {
@@ -56,21 +74,22 @@ std::optional<PlaneSimilarity> fit_similarity(const std::vector<PlaneMatch>& mat
                                               double tolerance) {
   if (matches.size() < static_cast<std::size_t>(kLeastMatches)) return std::nullopt;
   std::mt19937_64 random(20181);
-  std::vector<bool> best;
+  PlaneSimilarity chosen;
   int most = 0;
-  for (int sample = 0; sample < kSamples; ++sample) {
+  for (int sample = 0; sample < kSamples && most < static_cast<int>(matches.size()); ++sample) {
     const PlaneMatch& p = matches[random() % matches.size()];
     const PlaneMatch& q = matches[random() % matches.size()];
     if (std::abs(q.first - p.first) < tolerance || std::abs(q.second - p.second) < tolerance) {
       continue;
     }
-    std::vector<bool> agree = agreeing(matches, through(p, q), tolerance);
-    const int count = count_of(agree);
+    const PlaneSimilarity candidate = through(p, q);
+    const int count = count_beyond(most, matches, candidate, tolerance);
     if (count <= most) continue;
     most = count;
-    best = std::move(agree);
+    chosen = candidate;
   }
   if (most < kLeastMatches) return std::nullopt;
+  std::vector<bool> best = agreeing(matches, chosen, tolerance);
   best = agreeing(matches, refined(matches, best), tolerance);
   if (count_of(best) < kLeastMatches) return std::nullopt;
   return refined(matches, best);

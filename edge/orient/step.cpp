@@ -13,7 +13,6 @@ namespace {
 // Bundles whose outer products are summed in one matrix product. Its inner dimension stays below
 // the block size of any cache, and with it the order of summation the same on every machine.
 constexpr std::size_t kBundlesAtOnce = 8;
-constexpr Eigen::Index kBundleColumns = 3 * kLanes;
 // A point that its rays leave open in a direction keeps this share of its diagonal there.
 constexpr double kLeastPivotShare = 1e-14;
 constexpr double kLeastPivot = 1e-290;  // a point without rays
@@ -102,10 +101,13 @@ class Elimination {
     product_.setZero(rows, rows);
     for (std::size_t from = first; from < last; from += kBundlesAtOnce) {
       const std::size_t to = std::min(from + kBundlesAtOnce, last);
-      f_.resize(rows, static_cast<Eigen::Index>(to - from) * kBundleColumns);
+      Eigen::Index width = 0;
+      for (std::size_t b = from; b < to; ++b) width += 3 * equations_.points[b].count;
+      f_.resize(rows, width);
+      double* row = f_.data();
       for (std::size_t b = from; b < to; ++b) {
-        put(equations_.points[b], columns.size(),
-            f_.data() + static_cast<Eigen::Index>(b - from) * kBundleColumns);
+        put(equations_.points[b], columns.size(), row);
+        row += 3 * equations_.points[b].count;
       }
       product_.selfadjointView<Eigen::Lower>().rankUpdate(f_);
     }
@@ -117,24 +119,33 @@ class Elimination {
     const PointFactors factors(points.v, lambda_);
     const auto put_row = [&](const Lanes3& row) {
       const Lanes3 f = factors.forward(row);
-      for (int i = 0; i < 3; ++i) Eigen::Map<Lanes>(to + i * kLanes) = f[at(i)];
+      for (int i = 0; i < 3; ++i) std::copy_n(f[at(i)].data(), points.count, to + i * points.count);
       to += f_.cols();
     };
     for (std::size_t r = 0; r < rows; ++r) put_row(equations_.e[points.first_e + r]);
     put_row(points.gradient);
   }
 
-  // Ascending columns stay in the lower triangle; a photo that sees the points twice meets itself.
+  // Where columns ascend, all stays in the lower triangle.
   void subtract(const std::vector<int>& columns) {
-    const auto count = static_cast<Eigen::Index>(columns.size());
-    for (Eigen::Index j = 0; j < count; ++j) {
-      const int column = columns[static_cast<std::size_t>(j)];
-      for (Eigen::Index i = j; i < count; ++i) {
-        const int row = columns[static_cast<std::size_t>(i)];
-        s(std::max(row, column), std::min(row, column)) -= product_(i, j);
-        if (row == column && i != j) s(row, column) -= product_(i, j);
+    for (std::size_t j = 0; j < columns.size(); ++j) {
+      double* const to = s.col(columns[j]).data();
+      const double* const from = product_.col(static_cast<Eigen::Index>(j)).data();
+      for (std::size_t i = j; i < columns.size(); ++i) to[columns[i]] -= from[i];
+      right_side[columns[j]] += from[columns.size()];
+    }
+    if (!std::is_sorted(columns.begin(), columns.end())) subtract_again(columns);
+  }
+
+  // A photo that sees the points twice has its columns twice, which meet on its diagonal block:
+  // what subtract() put on its diagonal and above counts below it too.
+  void subtract_again(const std::vector<int>& columns) {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (columns[i] > columns[j]) continue;
+        s(columns[j], columns[i]) -=
+            product_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
       }
-      right_side[column] += product_(count, j);
     }
   }
 };
