@@ -3,6 +3,7 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <numeric>
 
 #include "edge/geometry/rotation.h"
 
@@ -14,10 +15,17 @@ using Matrix7 = Eigen::Matrix<double, 7, 7>;
 
 constexpr double kFarWorse = 3;  // times the median sigma
 
+std::vector<int> all_of(const NetworkCovariance& covariance) {
+  std::vector<int> points(at(covariance.points()));
+  std::iota(points.begin(), points.end(), 0);
+  return points;
+}
+
 std::vector<int> frame_points(const NetworkCovariance& covariance,
-                              const std::vector<Eigen::Matrix3d>& point_covariances) {
+                              const std::vector<Eigen::Matrix3d>& point_covariances,
+                              const std::vector<int>& candidates) {
   std::vector<double> traces;
-  for (int p = 0; p < covariance.points(); ++p) {
+  for (const int p : candidates) {
     if (covariance.point(p).measured) traces.push_back(point_covariances[at(p)].trace());
   }
   std::vector<int> chosen;
@@ -25,7 +33,7 @@ std::vector<int> frame_points(const NetworkCovariance& covariance,
   const auto middle = traces.begin() + static_cast<std::ptrdiff_t>(traces.size() / 2);
   std::nth_element(traces.begin(), middle, traces.end());
   const double limit = kFarWorse * kFarWorse * *middle;
-  for (int p = 0; p < covariance.points(); ++p) {
+  for (const int p : candidates) {
     if (covariance.point(p).measured && point_covariances[at(p)].trace() <= limit) {
       chosen.push_back(p);
     }
@@ -44,10 +52,12 @@ Matrix3x7 similarity_design(const Eigen::Vector3d& from_centroid) {
 
 LocalFrameFit fit_local_frame(const Network& network, const State& state,
                               const NetworkCovariance& covariance,
-                              const std::vector<Eigen::Matrix3d>& point_covariances) {
+                              const std::vector<Eigen::Matrix3d>& point_covariances,
+                              const std::vector<int>& candidates) {
   LocalFrameFit fit;
   fit.local_covariance_m2 = point_covariances;
-  const std::vector<int> chosen = frame_points(covariance, point_covariances);
+  const std::vector<int> chosen = frame_points(
+      covariance, point_covariances, candidates.empty() ? all_of(covariance) : candidates);
   if (chosen.size() < 3) return fit;
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
   for (const int p : chosen) centroid += state.points[at(p)] / static_cast<double>(chosen.size());
