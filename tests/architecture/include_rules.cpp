@@ -19,6 +19,7 @@ const std::map<std::string_view, std::vector<std::string_view>> kRoomsBelow = {
     {"jpeg", {"base"}},
     {"image", {"base"}},
     {"orient", {"base", "geometry"}},
+    {"plan", {"base", "geometry", "orient"}},
     {"survey", {"base", "geometry", "geodesy", "image", "orient"}},
 };
 

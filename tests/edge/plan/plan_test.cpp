@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+#include "edge/plan/plan.h"
+
+#include <gmock/gmock.h>
+
+#include "edge/base/index.h"
+#include "tests/edge/plan/paper_camera.h"
+
+namespace plumbline::plan {
+namespace {
+
+using ::testing::HasSubstr;
+using testing::paper_options;
+
+Summary planned(const Flight& flight, const Options& options) {
+  const auto summary = plan(flight, options);
+  EXPECT_TRUE(summary.ok());
+  return summary ? *summary : Summary{};
+}
+
+double larger(const Sigma& sigma) {
+  if (!sigma.plan_m || !sigma.height_m) return 1e9;
+  return std::max(*sigma.plan_m, *sigma.height_m);
+}
+
+TEST(Plan, AdvisesTheCheapestChangeThatReachesTheGoal) {
+  Options options = paper_options(0.2);
+  options.goal_m = 0.08;
+  const Summary summary = planned(flight_of({70, 90, 5, {}}), options);
+  EXPECT_FALSE(*summary.goal_reached);
+  ASSERT_TRUE(summary.cheapest);
+  const Advice& chosen = summary.advice[at(*summary.cheapest)];
+  EXPECT_LE(larger(chosen.worst), 0.08);
+  for (const Advice& advice : summary.advice) {
+    if (advice.change.cost_s < chosen.change.cost_s) {
+      EXPECT_FALSE(advice.reaches_goal) << advice.change.what;
+    }
+  }
+  EXPECT_THAT(summary.sentence, HasSubstr("azimuth unknown"));
+  EXPECT_THAT(summary.sentence, HasSubstr(chosen.change.what));
+}
+
+TEST(Plan, KeepsItsPromiseWhenTheChangeIsMade) {
+  Options options = paper_options(0.2);
+  options.goal_m = 0.08;
+  const Flight flight = flight_of({70, 90, 5, {}});
+  const Summary before = planned(flight, options);
+  ASSERT_TRUE(before.cheapest);
+  const Change& change = before.advice[at(*before.cheapest)].change;
+  options.radius_m = before.radius_m;
+  const Summary after = planned(changed(flight, change), changed(options, change));
+  EXPECT_TRUE(*after.goal_reached);
+  EXPECT_NEAR(larger(after.worst), larger(before.advice[at(*before.cheapest)].worst), 1e-9);
+}
+
+TEST(Plan, SaysThatAReachedGoalNeedsNothing) {
+  Options options = paper_options(0.1);
+  options.goal_m = 0.1;
+  const Summary summary = planned(flight_of(*named_climb("standard")), options);
+  EXPECT_TRUE(*summary.goal_reached);
+  EXPECT_THAT(summary.sentence, HasSubstr("nothing to change"));
+}
+
+TEST(Plan, SaysThatNothingReachesAGoalBeyondThePositions) {
+  Options options = paper_options(0.2);
+  options.goal_m = 0.0005;
+  const Summary summary = planned(flight_of({70, 90, 5, {}}), options);
+  EXPECT_FALSE(summary.cheapest);
+  ASSERT_TRUE(summary.best);
+  EXPECT_THAT(summary.sentence, HasSubstr("Nothing tried reaches the goal"));
+  for (const Advice& advice : summary.advice) {
+    EXPECT_GE(larger(advice.worst), 0.99 * larger(summary.advice[at(*summary.best)].worst));
+  }
+}
+
+TEST(Plan, TriesPairsWhereNoSingleChangeDoes) {
+  Options options = paper_options(0.3);
+  options.goal_m = 0.035;
+  const Summary summary = planned(flight_of({70, 90, 5, {}}), options);
+  ASSERT_TRUE(summary.cheapest);
+  EXPECT_THAT(summary.advice[at(*summary.cheapest)].change.what, HasSubstr(", and "));
+}
+
+TEST(Plan, AdvisesOnWhatIsNotObservableWithoutAGoal) {
+  const Summary summary = planned(flight_of({70, 90, 5, {}}), paper_options(0.2));
+  EXPECT_FALSE(summary.goal_reached);
+  ASSERT_TRUE(summary.cheapest);
+  const Advice& advice = summary.advice[at(*summary.cheapest)];
+  EXPECT_LT(advice.unobservable.size(), summary.flight.unobservable.size());
+  EXPECT_TRUE(advice.azimuth_deg);
+}
+
+TEST(Plan, StatesTheStandardAccuracyOverTheClimbAsBase) {
+  const Summary summary = planned(flight_of({70, 90, 5, {}}), paper_options(1));
+  ASSERT_TRUE(summary.standard_accuracy);
+  EXPECT_NEAR(summary.standard_accuracy->plan_m, 80.0 / 2125, 1e-12);
+  EXPECT_NEAR(summary.standard_accuracy->height_m, std::sqrt(2.0) * 80 / 2125 * 80 / 20, 1e-12);
+}
+
+// A daemon asks after each photo: what was flown stays, and the rest may still change.
+TEST(Plan, PlansOnFromThePhotosAlreadyTaken) {
+  const Flight whole = flight_of({70, 90, 5, {10}});
+  Options options = paper_options(0.2);
+  options.goal_m = 0.12;
+  options.radius_m = 40;
+  Flight flight;
+  double before = 1e9;
+  for (const Eigen::Vector3d& place : whole.ahead_m) {
+    flight.taken_m.push_back(place);
+    if (flight.photos() < 2) continue;
+    const Summary summary = planned(flight, options);
+    const double now = summary.worst.height_m.value_or(1e9);
+    EXPECT_LT(now, before);
+    before = now;
+    EXPECT_EQ(*summary.goal_reached, flight.photos() == whole.photos());
+  }
+  Flight ahead = whole;
+  EXPECT_NEAR(*planned(ahead, options).worst.height_m, before, 1e-9);
+}
+
+TEST(Plan, IsTheSameBitsTwice) {
+  Options options = paper_options(0.2);
+  options.goal_m = 0.05;
+  const Summary a = planned(flight_of({70, 90, 5, {5}}), options);
+  const Summary b = planned(flight_of({70, 90, 5, {5}}), options);
+  ASSERT_EQ(a.advice.size(), b.advice.size());
+  for (std::size_t i = 0; i < a.advice.size(); ++i) {
+    EXPECT_EQ(a.advice[i].worst.height_m, b.advice[i].worst.height_m);
+  }
+}
+
+TEST(Plan, RefusesNonsenseInOneSentence) {
+  Options options = paper_options(0.2);
+  options.goal_m = -1;
+  EXPECT_FALSE(plan(flight_of({70, 90, 5, {}}), options));
+  options = paper_options(0.2);
+  options.known_length_m = 1000;
+  EXPECT_FALSE(plan(flight_of({70, 90, 5, {}}), options));
+  EXPECT_FALSE(plan(Flight{}, paper_options(0.2)));
+  EXPECT_FALSE(check(Climb{90, 70, 5, {}}));
+  EXPECT_FALSE(check(Climb{70, 90, 0, {}}));
+}
+
+}  // namespace
+}  // namespace plumbline::plan
