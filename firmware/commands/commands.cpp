@@ -11,6 +11,7 @@
 #include "firmware/commands/gnss_command.h"
 #include "firmware/commands/measure_command.h"
 #include "firmware/commands/orient_command.h"
+#include "firmware/commands/plan_command.h"
 #include "firmware/commands/run_report.h"
 #include "firmware/commands/sim_command.h"
 
@@ -35,7 +36,7 @@ int wrong_usage(const CLI::App& app, const CLI::ParseError& wrong, int argc, cha
   if (command.empty() && argc > 1 && argv[1][0] != '-') {
     what = "There is no command '" + std::string(argv[1]) + "'";
   } else if (command.empty() && argc < 2) {
-    what = "A command is required: measure, orient, sim or gnss";
+    what = "A command is required: measure, orient, plan, sim or gnss";
   }
   std::replace(what.begin(), what.end(), '\n', ' ');
   std::cerr << "plumbline: " << what << "; see plumbline " << command << "--help.\n";
@@ -52,6 +53,7 @@ int parse_and_run(int argc, char** argv) {
   int status = kGood;
   add_measure(app, status);
   add_orient(app, status);
+  add_plan(app, status);
   add_sim(app, status);
   add_gnss(app, status);
   try {

@@ -183,12 +183,13 @@ TEST_F(WrongUsage, EndsWithTwoAndOneSentence) {
   expect_refused({"measure", "photos", "--foo"}, "--foo", 2);
   expect_refused({"measure", "photos", "--ties", "many"}, "--ties", 2);
   expect_refused({"orient"}, "CASE is required", 2);
+  expect_refused({"plan"}, "--camera is required", 2);
   expect_refused({"sim"}, "OUT is required", 2);
   expect_refused({"gnss"}, "required", 2);
 }
 
 TEST_F(WrongUsage, HelpOfEveryCommandHasAnExample) {
-  for (const std::string command : {"measure", "orient", "sim", "gnss"}) {
+  for (const std::string command : {"measure", "orient", "plan", "sim", "gnss"}) {
     const Outcome outcome = run_plumbline({command, "--help"}, folder);
     EXPECT_EQ(outcome.status, 0);
     EXPECT_THAT(outcome.out, HasSubstr("Example: plumbline " + command + " "));
