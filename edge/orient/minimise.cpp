@@ -14,6 +14,7 @@ namespace {
 constexpr double kFirstLambda = 1e-4;
 constexpr double kLeastLambda = 1e-12;
 constexpr double kMostLambda = 1e8;
+constexpr double kDampingFactor = 8;
 constexpr double kNearlyUndamped = 1e-3;
 // What summing some ten thousand squares leaves.
 constexpr double kRounding = 1e-11;
@@ -46,9 +47,11 @@ class Minimiser {
     return cost_of(network_, bundles_, state, options_.cauchy_scale) + cost_of(terms);
   }
 
-  // Raises the damping until a step lowers the cost. False where none does.
+  // Raises the damping until a step lowers the cost; damping that had to be raised stays for the
+  // next step, which would need it as well. False where no step lowers the cost.
   bool step_down() {
-    for (; lambda_ <= kMostLambda; lambda_ *= 8) {
+    bool raised = false;
+    for (; lambda_ <= kMostLambda; lambda_ *= kDampingFactor, raised = true) {
       const auto step = solve(equations_, lambda_);
       if (!step) continue;
       State trial = moved_by(network_, minimum_.state, *step);
@@ -65,7 +68,7 @@ class Minimiser {
       minimum_.state = std::move(trial);
       minimum_.cost = there;
       terms_ = std::move(terms);
-      lambda_ = std::max(lambda_ / 8, kLeastLambda);
+      if (!raised) lambda_ = std::max(lambda_ / kDampingFactor, kLeastLambda);
       return true;
     }
     return false;
