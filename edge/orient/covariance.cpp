@@ -76,6 +76,8 @@ std::optional<NetworkCovariance> NetworkCovariance::of(const Network& network,
   }
   out.columns_of_group_ = equations.columns_of_group;
   out.group_of_point_ = groups_of_points(network);
+  for (const int slot : network.slot_of_photo)
+    out.column_of_photo_.push_back(slot < 0 ? -1 : network.layout.photo(slot));
   out.points_.resize(at(network.points()));
   for (const PointLanes& points : equations.points) {
     for (int lane = 0; lane < points.count; ++lane) {
@@ -134,11 +136,23 @@ Eigen::MatrixXd NetworkCovariance::joint(const std::vector<int>& points) const {
       const PointFactor& b = point(points[j]);
       Eigen::Matrix3d block =
           a.by_common * common_block(a.columns, b.columns) * b.by_common.transpose();
-      if (i == j) block += a.own;
+      if (points[i] == points[j]) block += a.own;
       const auto row = static_cast<Eigen::Index>(3 * i), col = static_cast<Eigen::Index>(3 * j);
       covariance.block<3, 3>(row, col) = block;
       covariance.block<3, 3>(col, row) = block.transpose();
     }
+  }
+  return covariance;
+}
+
+Eigen::MatrixXd NetworkCovariance::with_photo(int photo, const std::vector<int>& points) const {
+  const int first = column_of_photo_[at(photo)];
+  const Eigen::MatrixXd rows = common_.middleRows(first, Layout::kPose);
+  Eigen::MatrixXd covariance(Layout::kPose, static_cast<Eigen::Index>(3 * points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const PointFactor& f = point(points[i]);
+    covariance.middleCols<3>(static_cast<Eigen::Index>(3 * i)) =
+        rows(Eigen::all, f.columns) * f.by_common.transpose();
   }
   return covariance;
 }

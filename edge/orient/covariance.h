@@ -42,6 +42,7 @@ class NetworkCovariance final : public PointCovariances {
   std::vector<Eigen::Matrix3d> point_covariances() const;
   // by_common of `index` times the common covariance times `right` (columns x k).
   Eigen::MatrixXd joint(const std::vector<int>& points) const override;
+  Eigen::MatrixXd with_photo(int photo, const std::vector<int>& points) const override;
   PointSpread spread(int index) const;
   // Covariance of the computed pixel of a ray; `spread` is that of its point.
   Eigen::Matrix2d pixel_covariance(const Network& network, const Ray& ray, const RayLinear& linear,
@@ -55,6 +56,7 @@ class NetworkCovariance final : public PointCovariances {
   std::vector<PointFactor> points_;
   std::vector<std::vector<int>> columns_of_group_;  // as NormalEquations'
   std::vector<int> group_of_point_;                 // -1: no rays
+  std::vector<int> column_of_photo_;                // -1: not oriented
 };
 
 }  // namespace plumbline::orient

@@ -81,8 +81,18 @@ struct Summary {
 class PointCovariances {
  public:
   virtual ~PointCovariances() = default;
-  // 3n x 3n, in the order of `points` (indices of measured points), m2.
+  // 3n x 3n, in the order of `points` (indices of measured points; one may be there twice), m2.
   virtual Eigen::MatrixXd joint(const std::vector<int>& points) const = 0;
+  // 6 x 3n: of an oriented photo (centre, rotation increment: as OrientedPhoto) with the points.
+  virtual Eigen::MatrixXd with_photo(int photo, const std::vector<int>& points) const = 0;
+};
+
+// Three points that make a local frame: the origin, a point on the x axis, a third in the x-y
+// plane. Indices of Problem::point_names.
+struct FrameRoles {
+  int origin = 0;
+  int x_axis = 0;
+  int plane = 0;
 };
 
 struct Solution {
@@ -92,6 +102,8 @@ struct Solution {
   std::vector<ObservationResidual> residuals;  // as Problem::observations
   Summary summary;
   std::shared_ptr<const PointCovariances> covariances;  // immutable once made
+  // Where given, all places are X, Y, Z of this local frame instead of east, north, up.
+  std::optional<FrameRoles> frame;
 };
 
 }  // namespace plumbline::orient

@@ -76,8 +76,8 @@ Result<PointNumbers> case_observations(const CsvTable& table, orient::Problem& p
   return points;
 }
 
-Result<FrameRoles> case_frame_roles(const CsvTable& table, const PointNumbers& points,
-                                    std::vector<std::string>& notices) {
+Result<orient::FrameRoles> case_frame_roles(const CsvTable& table, const PointNumbers& points,
+                                            std::vector<std::string>& notices) {
   TableReader reader(table);
   reader.require({"role", "point"});
   std::map<std::string, int, std::less<>> found;
@@ -98,7 +98,7 @@ Result<FrameRoles> case_frame_roles(const CsvTable& table, const PointNumbers& p
   if (found.size() != 3) {
     return Error{table.name + ": each of the roles origin, x_axis and plane is wanted."};
   }
-  const FrameRoles roles{found["origin"], found["x_axis"], found["plane"]};
+  const orient::FrameRoles roles{found["origin"], found["x_axis"], found["plane"]};
   if (roles.origin == roles.x_axis || roles.origin == roles.plane || roles.x_axis == roles.plane) {
     return Error{table.name + ": the three roles need three different points."};
   }

@@ -22,8 +22,8 @@ using PointNumbers = std::map<std::string, int, std::less<>>;
 Result<PointNumbers> case_observations(const CsvTable& table, orient::Problem& problem,
                                        std::vector<std::string>& notices);
 
-Result<FrameRoles> case_frame_roles(const CsvTable& table, const PointNumbers& points,
-                                    std::vector<std::string>& notices);
+Result<orient::FrameRoles> case_frame_roles(const CsvTable& table, const PointNumbers& points,
+                                            std::vector<std::string>& notices);
 Result<orient::LeverArm> case_lever_arm(const CsvTable& table, std::vector<std::string>& notices);
 Result<orient::GnssErrorModel> case_gnss(const std::string& text, const std::string& name,
                                          std::vector<std::string>& notices);

@@ -180,7 +180,7 @@ class CaseReader {
     if (!has("frame.csv")) return Done{};
     const Result<CsvTable> table = table_of("frame.csv");
     if (!table) return table.error();
-    const Result<FrameRoles> roles = case_frame_roles(*table, points_, result_.warnings);
+    const Result<orient::FrameRoles> roles = case_frame_roles(*table, points_, result_.warnings);
     if (!roles) return roles.error();
     result_.frame_roles = *roles;
     return Done{};

@@ -11,23 +11,16 @@
 #include "edge/geodesy/geoid.h"
 #include "edge/geodesy/local_frame.h"
 #include "edge/orient/problem.h"
+#include "edge/orient/solution.h"
 #include "edge/survey/check_points.h"
 
 namespace plumbline::ingest {
 
-// The points that make the paper's local frame (frame.csv), as indices of Problem::point_names: the
-// origin, a point on the x axis, a third in the plane of the first two.
-struct FrameRoles {
-  int origin = 0;
-  int x_axis = 0;
-  int plane = 0;
-};
-
 // The folder that `plumbline orient` is given: measured image coordinates and all that is known.
 struct CaseFolder {
   orient::Problem problem;
-  std::vector<survey::CheckPoint> check;  // never part of the problem
-  std::optional<FrameRoles> frame_roles;
+  std::vector<survey::CheckPoint> check;          // never part of the problem
+  std::optional<orient::FrameRoles> frame_roles;  // frame.csv: the paper's local frame
   // Where e/n/u lie on the earth: known only where control or check points are given on the earth
   // and the photos without e/n/u.
   std::optional<geodesy::LocalFrame> frame;

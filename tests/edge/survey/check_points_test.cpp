@@ -23,6 +23,9 @@ class KnownCovariances : public orient::PointCovariances {
                                                        3 * points[static_cast<std::size_t>(j)]);
     return c;
   }
+  Eigen::MatrixXd with_photo(int /*photo*/, const std::vector<int>& points) const override {
+    return Eigen::MatrixXd::Zero(6, static_cast<Eigen::Index>(3 * points.size()));
+  }
 
  private:
   Eigen::MatrixXd all_;

@@ -47,6 +47,9 @@ class SampleCovariances : public orient::PointCovariances {
     }
     return c + by * by.transpose();
   }
+  Eigen::MatrixXd with_photo(int /*photo*/, const std::vector<int>& points) const override {
+    return Eigen::MatrixXd::Zero(6, static_cast<Eigen::Index>(3 * points.size()));
+  }
 
  private:
   Eigen::Matrix<double, 3, 5> by_common(const Eigen::Vector3d& place) const {
