@@ -89,24 +89,33 @@ void fill_moments(const Eigen::VectorXd& d, const Eigen::VectorXd& sigma, CheckR
   const auto n = static_cast<double>(points);
   int within_one = 0;
   int within_two = 0;
+  int uncertain = 0;
   for (Eigen::Index i = 0; i < d.size(); ++i) {
     report.rmse_m[i % 3] += d[i] * d[i] / n;
     report.rms_stated_sigma_m[i % 3] += sigma[i] * sigma[i] / n;
+    if (!(sigma[i] > 0)) continue;  // zero by the definition of a local frame
+    ++uncertain;
     if (std::abs(d[i]) <= sigma[i]) ++within_one;
     if (std::abs(d[i]) <= 2.0 * sigma[i]) ++within_two;
   }
   report.rmse_m = report.rmse_m.cwiseSqrt().eval();
   report.rms_stated_sigma_m = report.rms_stated_sigma_m.cwiseSqrt().eval();
   report.largest_m = d.cwiseAbs().maxCoeff();
-  report.share_within_one_sigma = within_one / (3.0 * n);
-  report.share_within_two_sigma = within_two / (3.0 * n);
+  report.share_within_one_sigma = within_one / std::max(1.0, static_cast<double>(uncertain));
+  report.share_within_two_sigma = within_two / std::max(1.0, static_cast<double>(uncertain));
 }
 
-// Directions in which the covariance vanishes (a frame held by some of the points) say nothing and
-// are left out of the sum and of the degrees of freedom.
-void fill_joint_nees(const Eigen::VectorXd& d, const Eigen::MatrixXd& c, CheckReport& report) {
+// Coordinates and directions in which the covariance vanishes (a frame held by some of the points)
+// say nothing and are left out of the sum and of the degrees of freedom.
+void fill_joint_nees(const Eigen::VectorXd& all_d, const Eigen::MatrixXd& all_c,
+                     CheckReport& report) {
+  std::vector<Eigen::Index> uncertain;
+  for (Eigen::Index i = 0; i < all_d.size(); ++i)
+    if (!(all_c(i, i) <= 0)) uncertain.push_back(i);
+  const Eigen::VectorXd d = all_d(uncertain);
+  const Eigen::MatrixXd c = all_c(uncertain, uncertain);
   const Eigen::VectorXd sigma = c.diagonal().cwiseSqrt();
-  if (!c.allFinite() || !(sigma.minCoeff() > 0.0)) return;
+  if (uncertain.empty() || !c.allFinite()) return;
   const Eigen::VectorXd inverse = sigma.cwiseInverse();
   const Eigen::MatrixXd correlation = inverse.asDiagonal() * c * inverse.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(correlation);
@@ -120,6 +129,12 @@ void fill_joint_nees(const Eigen::VectorXd& d, const Eigen::MatrixXd& c, CheckRe
   }
   report.joint_nees_low = chi_square_quantile(0.005, report.joint_nees_dof);
   report.joint_nees_high = chi_square_quantile(0.995, report.joint_nees_dof);
+}
+
+double flat_rmse_m(const std::vector<Match>& matches) {
+  double squares = 0;
+  for (const Match& match : matches) squares += std::pow(match.known->in_enu_m.z(), 2);
+  return std::sqrt(squares / static_cast<double>(matches.size()));
 }
 
 void fill_best_fit(const orient::Solution& solution, const std::vector<Match>& matches,
@@ -180,7 +195,8 @@ Result<CheckReport> check(const orient::Problem& problem, const orient::Solution
   for (std::size_t i = 0; i < matches.size(); ++i)
     report.points.push_back({matches[i].known->point, d.segment<3>(at(i)), sigma.segment<3>(at(i)),
                              Eigen::Vector3d::Zero()});
-  report.same_frame = tied_to_the_frame(problem);
+  report.same_frame = solution.frame.has_value() || tied_to_the_frame(problem);
+  if (solution.frame) report.flat_rmse_u_m = flat_rmse_m(matches);
   fill_moments(d, sigma, report);
   if (solution.covariances) fill_joint_nees(d, c, report);
   report.joint_nees_holds = turns_are_small(solution, matches);

@@ -50,6 +50,9 @@ struct CheckReport {
   bool joint_nees_holds = true;
   // After a 7-parameter similarity to the known points (three points or more).
   std::optional<Eigen::Vector3d> best_fit_rmse_m;
+  // In a local frame of three points: what "everything is flat" (Z = 0) would have scored in
+  // height, the least that heights worth the name must beat.
+  std::optional<double> flat_rmse_u_m;
 };
 
 // Compares; a failure where no check point was measured. The covariance of the differences is that
