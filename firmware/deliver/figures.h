@@ -22,6 +22,8 @@ enum class EllipseKind {
 Figure plan_figure(const Product& product, EllipseKind kind);
 // Stations, the ground each has seen, and the heights of the points with their sigmas, from aside.
 Figure section_figure(const Product& product);
+// Differences in plan at the check points, as arrows (Kunii and Kumazaki 2018, Fig. 9).
+Figure check_figure(const Product& product);
 // Residual arrows photo by photo.
 Figure residual_figure(const Product& product);
 

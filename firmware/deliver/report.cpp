@@ -47,6 +47,7 @@ std::string figures(const Product& product) {
   std::string all = numbered.add(plan_figure(product, EllipseKind::kAbsolute));
   if (shape_is_much_better(product)) all += numbered.add(plan_figure(product, EllipseKind::kLocal));
   all += numbered.add(section_figure(product));
+  all += numbered.add(check_figure(product));
   return all + numbered.add(residual_figure(product));
 }
 

@@ -86,6 +86,7 @@ svg .height { stroke-width: 1.1; } svg .height.tie { stroke: #b4bec8; }
 svg .height.named { stroke: var(--blue); stroke-width: 1.5; }
 svg .north { fill: var(--ink); }
 svg .arrows { fill: none; stroke: var(--blue); stroke-width: .9; }
+svg .arrows.check { stroke: var(--bad); stroke-width: 1.5; }
 svg .arrows.rejected { stroke: var(--bad); stroke-width: 1.2; }
 @media (max-width: 720px) { body { padding: 22px 16px; }
   .cards { grid-template-columns: repeat(2, 1fr); } dl { grid-template-columns: 1fr; } }
