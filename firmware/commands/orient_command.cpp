@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "firmware/commands/orient_command.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <utility>
 
+#include "edge/orient/paper/procedure.h"
+#include "edge/orient/three_point_frame.h"
 #include "edge/survey/check_points.h"
 #include "edge/survey/survey.h"
 #include "firmware/commands/adjustment_options.h"
@@ -22,18 +25,69 @@ struct OrientArguments {
   std::filesystem::path geoid;
   std::string datum = "that of the base";
   bool json = false;
+  bool paper = false;
+  orient::paper::Priors priors;
   orient::Options adjustment;
 };
 
-deliver::Product product_of(ingest::CaseFolder input, orient::Solution solution,
+struct Oriented {
+  orient::Solution solution;
+  std::optional<orient::paper::Procedure> paper;
+};
+
+// The rigorous adjustment, then the frame of three points where there is one.
+Result<Oriented> adjusted(const ingest::CaseFolder& input, const OrientArguments& arguments) {
+  auto solution = orient::adjust(input.problem, arguments.adjustment);
+  if (!solution) return solution.error();
+  if (!input.frame_roles) return Oriented{*std::move(solution), std::nullopt};
+  auto framed = orient::in_three_point_frame(input.problem, *solution, *input.frame_roles,
+                                             arguments.adjustment);
+  if (!framed) return framed.error();
+  return Oriented{*std::move(framed), std::nullopt};
+}
+
+// What the published procedure does not use is named, not passed over.
+std::string left_aside(const orient::Problem& problem) {
+  const bool stations = std::ranges::any_of(problem.photos, [](const orient::Photo& photo) {
+    return photo.station || photo.attitude || photo.heading;
+  });
+  std::string what;
+  if (stations) what += ", positions and attitudes of the photos";
+  if (!problem.control.empty()) what += ", control points";
+  if (problem.lengths.size() > 1) what += ", lengths but the first";
+  return what.empty() ? what : what.substr(2);
+}
+
+Result<Oriented> as_published(ingest::CaseFolder& input, const OrientArguments& arguments) {
+  if (!input.frame_roles) {
+    return Error{
+        "The published procedure gives its results in a local frame of three points: "
+        "name them in frame.csv (role,point with the roles origin, x_axis, plane)."};
+  }
+  auto paper = orient::paper::run_procedure(input.problem, *input.frame_roles, arguments.priors,
+                                            arguments.adjustment);
+  if (!paper) return paper.error();
+  input.warnings.push_back(
+      "The published procedure is held by weak priors, which its error bars "
+      "rest on: " +
+      paper->declared + ".");
+  if (const std::string what = left_aside(input.problem); !what.empty()) {
+    input.warnings.push_back("Given, but not used by the published procedure: " + what + ".");
+  }
+  orient::Solution solution = paper->solution;
+  return Oriented{std::move(solution), *std::move(paper)};
+}
+
+deliver::Product product_of(ingest::CaseFolder input, Oriented oriented,
                             const OrientArguments& arguments) {
   deliver::Product product;
   product.title = title_of(arguments.folder);
   product.problem = std::move(input.problem);
-  product.solution = std::move(solution);
+  product.solution = std::move(oriented.solution);
+  product.paper = std::move(oriented.paper);
   product.options = arguments.adjustment;
   product.counts = survey::count(product.problem, product.solution);
-  product.origin = geo_origin(input.frame);
+  if (!product.solution.frame) product.origin = geo_origin(input.frame);
   product.datum = arguments.datum;
   product.warnings = std::move(input.warnings);
   product.input_sha256 = std::move(input.input_sha256);
@@ -47,15 +101,11 @@ int run_orient(const OrientArguments& arguments) {
   report.progress()("reading", 0, 1);
   auto input = ingest::read_case(arguments.folder, *geoid ? &**geoid : nullptr);
   if (!input) return fail(input.error());
-  if (input->frame_roles) {
-    input->warnings.push_back(
-        "frame.csv was read but not used: the results are in the frame of photos.csv.");
-  }
   report.progress()("adjusting", 0, 1);
-  auto solution = orient::adjust(input->problem, arguments.adjustment);
-  if (!solution) return fail(solution.error());
+  auto oriented = arguments.paper ? as_published(*input, arguments) : adjusted(*input, arguments);
+  if (!oriented) return fail(oriented.error());
   const auto known = input->check;
-  deliver::Product product = product_of(std::move(*input), std::move(*solution), arguments);
+  deliver::Product product = product_of(std::move(*input), *std::move(oriented), arguments);
   if (!known.empty()) {
     auto check = survey::check(product.problem, product.solution, known);
     if (!check) return fail(check.error());
@@ -78,9 +128,18 @@ void add_orient(CLI::App& app, int& status) {
   sub->add_option("--geoid", arguments->geoid, "geoid model (.pgm or ISG) for orthometric heights");
   sub->add_option("--datum", arguments->datum, "name of the datum, written into the results")
       ->capture_default_str();
+  sub->add_flag("--paper", arguments->paper,
+                "the procedure of Kunii and Kumazaki 2018, stage by stage, instead of the rigorous "
+                "adjustment: one length in lengths.csv and frame.csv, nothing else");
+  sub->add_option("--ground-flat", arguments->priors.ground_flat_m,
+                  "with --paper: how flat the ground is declared to be, metres (sigma)")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
   sub->add_flag("--json", arguments->json, "print summary.json instead of the table");
   add_adjustment_options(*sub, arguments->adjustment);
-  sub->footer("Example: plumbline orient my_case --out my_case/result");
+  sub->footer(
+      "Example: plumbline orient my_case --out my_case/result\n"
+      "         plumbline orient my_case --paper");
   sub->callback([arguments, &status] { status = run_orient(*arguments); });
 }
 

@@ -8,6 +8,7 @@
 #include <iostream>
 
 #include "firmware/deliver/deliver.h"
+#include "firmware/deliver/paper_stages.h"
 #include "firmware/deliver/table.h"
 
 namespace plumbline::commands {
@@ -77,8 +78,8 @@ int deliver_result(const deliver::Product& product, RunReport& report,
   if (json) {
     std::cout << deliver::summary_json(product);
   } else {
-    std::cout << deliver::accuracy_table(product) << "Report: " << (folder / "report.html").string()
-              << '\n';
+    std::cout << deliver::paper_stages_text(product) << deliver::accuracy_table(product)
+              << "Report: " << (folder / "report.html").string() << '\n';
   }
   return kGood;
 }

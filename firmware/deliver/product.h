@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "edge/orient/adjust.h"
+#include "edge/orient/paper/procedure.h"
 #include "edge/orient/problem.h"
 #include "edge/orient/solution.h"
 #include "edge/survey/check_points.h"
@@ -31,7 +32,8 @@ struct Product {
   orient::Options options;  // as adjusted with: the thresholds are printed
   survey::Counts counts;
   std::optional<survey::CheckReport> check;
-  std::optional<GeoOrigin> origin;  // empty: local frame only
+  std::optional<orient::paper::Procedure> paper;  // the published procedure, where that was asked
+  std::optional<GeoOrigin> origin;                // empty: local frame only
   std::string datum = "that of the base";
   int plane_rectangular_zone = 0;     // 1..19; 0: chosen by the origin, or UTM outside Japan
   std::vector<std::string> warnings;  // sentences, beside those of the solution

@@ -134,7 +134,9 @@ std::string named_point_table(const Product& product) {
   const std::vector<int> named = point_kinds(product).named;
   const int decimals = sigma_decimals(product, named);
   Table table;
-  table.caption = "Named points, local frame (east, north, up)";
+  table.caption = product.solution.frame
+                      ? "Named points; E, N, U are X, Y, Z of the frame of three of them"
+                      : "Named points, local frame (east, north, up)";
   table.head = {"Point",        "E|m",          "N|m",  "U|m",   kSigma + "E|m",
                 kSigma + "N|m", kSigma + "U|m", "Rays", "RMS|px"};
   table.note = cut_note(named.size());

@@ -23,6 +23,14 @@ constexpr const char* kMark =
 const std::string kDegree = "\xc2\xb0";
 
 std::string frame_words(const Product& product) {
+  if (const auto& roles = product.solution.frame) {
+    const auto name = [&](int point) {
+      return product.problem.point_names[static_cast<std::size_t>(point)];
+    };
+    return "Local frame of three points: origin " + name(roles->origin) + ", x axis to " +
+           name(roles->x_axis) + ", x-y plane through " + name(roles->plane) +
+           ". East, north and up stand for its X, Y and Z.";
+  }
   if (!product.origin)
     return "Local frame only: x east, y north, z up as far as the positions of the photos say so; "
            "no place on the earth was given.";

@@ -5,6 +5,7 @@
 
 #include "edge/base/units.h"
 #include "firmware/deliver/georeference.h"
+#include "firmware/deliver/paper_stages.h"
 #include "firmware/deliver/reliance.h"
 #include "firmware/deliver/statistics.h"
 #include "firmware/deliver/table.h"
@@ -127,6 +128,15 @@ void add_frame(Json& json, const Product& product) {
   const auto earth = Georeference::of(product);
   if (earth && *earth) json["map_grid"] = (*earth)->grid_in_words();
   json["datum"] = clean_utf8(product.datum);
+  json["frame"] = nullptr;
+  if (const auto& roles = product.solution.frame) {
+    const auto name = [&](int point) {
+      return clean_utf8(product.problem.point_names[static_cast<std::size_t>(point)]);
+    };
+    json["frame"] = {{"origin", name(roles->origin)},
+                     {"x_axis", name(roles->x_axis)},
+                     {"plane", name(roles->plane)}};
+  }
 }
 
 Json check_object(const survey::CheckReport& check) {
@@ -147,6 +157,7 @@ Json check_object(const survey::CheckReport& check) {
   const double unknown = std::nan("");
   add_axes(json, "best_fit_rmse",
            check.best_fit_rmse_m.value_or(Eigen::Vector3d::Constant(unknown)));
+  json["flat_rmse_u_m"] = check.flat_rmse_u_m ? number(*check.flat_rmse_u_m) : Json(nullptr);
   json["not_measured"] = texts(check.not_measured);
   json["also_control"] = texts(check.also_control);
   return json;
@@ -161,6 +172,7 @@ std::string summary_json(const Product& product) {
   add_common_sigmas(json, product);
   add_point_figures(json, product);
   if (product.check) json["check"] = check_object(*product.check);
+  if (product.paper) add_paper_stages(json, product);
   add_thresholds(json, product.options);
   add_frame(json, product);
   json["version"] = PLUMBLINE_VERSION;

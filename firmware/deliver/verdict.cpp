@@ -126,6 +126,14 @@ std::string headline(const Product& product, Verdict::Level& level) {
   return "Measured; the accuracy is predicted, not verified.";
 }
 
+// Heights that score no better than "everything is flat" are no measurement of relief.
+std::string flat_sentence(const survey::CheckReport& check) {
+  const bool beaten = check.rmse_m.z() < *check.flat_rmse_u_m;
+  return "The flat answer, Z = 0 everywhere, would have scored " + fixed(*check.flat_rmse_u_m, 3) +
+         " m in height; the measured heights score " + fixed(check.rmse_m.z(), 3) + " m" +
+         (beaten ? "." : " and do not beat it.");
+}
+
 }  // namespace
 
 Verdict verdict(const Product& product) {
@@ -153,6 +161,7 @@ std::vector<std::string> check_sentences(const survey::CheckReport& check) {
     sentences.push_back("The largest difference of any axis is " + fixed(check.largest_m, 3) +
                         " m: " + position_class(check.largest_m) + ".");
   }
+  if (check.flat_rmse_u_m) sentences.push_back(flat_sentence(check));
   if (check.best_fit_rmse_m)
     sentences.push_back("After a best fit (7-parameter similarity) the shape agrees to " +
                         per_axis(*check.best_fit_rmse_m) + ".");
