@@ -8,7 +8,7 @@ namespace {
 
 using geometry::InteriorVector;
 
-// Bundle coordinates beyond this are no image: their squares must stay finite.
+// Image-plane coordinates beyond this are no image: what is computed with them must stay finite.
 constexpr double kMostSquaredRadius = 1e12;
 
 void pack_ray(const Network& network, const Ray& ray, int lane, BundleRays& out) {

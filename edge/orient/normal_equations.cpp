@@ -15,7 +15,7 @@ double robust_cost(double squared_sigmas, double cauchy_scale) {
   return c2 * std::log1p(squared_sigmas / c2);
 }
 
-// Of each lane, what its ray weighs once robustly weighted.
+// Robust weight times information, ray by ray.
 Lanes weight_of(const SeenRays& rays, double cauchy_scale) {
   if (cauchy_scale == 0) return rays.information;
   const Lanes squared_sigmas = (rays.u * rays.u + rays.v * rays.v) * rays.information;
