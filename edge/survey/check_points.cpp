@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-#include "edge/survey/chi_square.h"
+#include "edge/base/chi_square.h"
 
 namespace plumbline::survey {
 namespace {
