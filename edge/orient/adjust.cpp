@@ -6,6 +6,7 @@
 
 #include "edge/base/units.h"
 #include "edge/orient/align.h"
+#include "edge/orient/doubts.h"
 #include "edge/orient/free_start.h"
 #include "edge/orient/group_fits.h"
 #include "edge/orient/image_correlation.h"
@@ -13,6 +14,7 @@
 #include "edge/orient/rays.h"
 #include "edge/orient/solution_of.h"
 #include "edge/orient/stations.h"
+#include "edge/orient/step.h"
 #include "edge/orient/validate.h"
 
 namespace plumbline::orient {
@@ -112,21 +114,28 @@ class Adjustment {
     state_.line_time_s = problem_.camera.line_time_us * kSecondsPerMicrosecond;
     state_.delay_s = problem_.delay.seconds;
     datum_ = state_;
+    soften_claims(network_, state_, terms_);
     for (const double scale : kSharp) {
       minimise_from(datum_, {scale, options_.max_iterations, kRobustTolerance});
       rescale_by_median(network_, state_);
       terms_.station_weights = robust_station_weights(network_, state_);
+      reweigh_claims(network_, state_, terms_);
     }
     minimise_from(datum_, {kSharp[1], options_.max_iterations, kRobustTolerance});
-    terms_.station_weights.assign(at(network_.slots()), 1.0);
+    terms_.station_weights.clear();
+    terms_.length_weights.clear();
+    terms_.control_weights.clear();
   }
 
   // Plain least squares without what was found to be wrong, so that the covariance is honest.
   Result<Solution> finish() {
     datum_ = state_;  // a prior on what nobody knows pulls at nothing
+    reject_gross_claims();
     double tolerance = kRobustTolerance;
+    bool doubted = false;
     for (int round = 0;; ++round) {
-      int changed = reject_rays(network_, state_, options_.rejection_sigma);
+      // While a wrong claim pulls, rays are not judged.
+      int changed = doubted ? 0 : reject_rays(network_, state_, options_.rejection_sigma);
       changed += drop_far_points();
       minimise_from(datum_, {0, options_.max_iterations, tolerance});
       const RaysLinear rays = linearise_rays(network_, state_, 0);
@@ -138,18 +147,39 @@ class Adjustment {
             "The photos and positions given do not determine a solution: too few points "
             "are seen in two photos or more, or all of them lie in one place."};
       }
+      doubted = doubts_.revise(network_, state_, datum_, !has_ties(), *covariance, terms, terms_);
+      if (doubted) {
+        --round;
+        continue;
+      }
       const GroupFits fits = group_fits(network_, *covariance, rays.rays, terms);
       const double sigma_change = rescale_by_variance(network_, fits);
       const bool last = round + 1 >= kMaxRounds;
-      const bool station_found = !last && reject_station(terms, *covariance);
-      const bool settled = changed == 0 && sigma_change < kSigmaSettled && !station_found;
+      const bool settled = changed == 0 && sigma_change < kSigmaSettled;
       if (!settled && !last) continue;
       if (widen(fits)) continue;
       if (tolerance == kFinalTolerance) {
-        return solution_of({network_, state_, terms_, *covariance, fits, iterations_, converged_},
+        return solution_of({network_, state_, terms_, *covariance, fits, terms, datum_,
+                            doubts_.rejected(), iterations_, converged_},
                            options_);
       }
       tolerance = kFinalTolerance;
+    }
+  }
+
+  // A control point 20 m off would tear a plain adjustment to pieces. Where the robust one has
+  // come to, a step of the plain one tells as much, without taking it.
+  void reject_gross_claims() {
+    reject_rays(network_, state_, options_.rejection_sigma);
+    drop_far_points();
+    for (bool found = true; found;) {
+      auto terms = linearised_terms(network_, state_, datum_, terms_);
+      const auto equations = normal_equations(network_, state_, 0, terms);
+      const auto covariance = NetworkCovariance::of(network_, equations);
+      const auto step = solve(equations, 0);
+      if (!covariance || !step) return;
+      for (Term& term : terms) term.residual += term.jacobian * step->common(term.columns);
+      found = doubts_.reject_worst(network_, !has_ties(), *covariance, terms, terms_);
     }
   }
 
@@ -180,29 +210,13 @@ class Adjustment {
     return drop_undetermined(network_, normal_equations(network_, state_, 0, {}), limit);
   }
 
-  bool reject_station(const std::vector<Term>& terms, const NetworkCovariance& covariance) {
-    const auto believed = station_slots(network_, terms_).size();
-    if (3 * (believed - 1) < 2 * stations_given()) return false;
-    const int slot = suspicious_station(network_, state_, terms_, terms, covariance);
-    if (slot < 0) return false;
-    terms_.station_weights[at(slot)] = 0;
-    return true;
-  }
-
-  std::size_t stations_given() const {
-    std::size_t count = 0;
-    for (int slot = 0; slot < network_.slots(); ++slot) {
-      count += network_.photo(slot).station ? 1U : 0U;
-    }
-    return count;
-  }
-
   const Problem& problem_;
   const Options& options_;
   Network network_;
   State state_;
   State datum_;
   TermOptions terms_;
+  Doubts doubts_;
   int iterations_ = 0;
   bool converged_ = false;
   int widenings_ = 0;

@@ -80,10 +80,14 @@ void add_scale_datum(const Network& network, const State& state, const State& st
   terms.push_back(std::move(term));
 }
 
-int kept_control(const Network& network) {
-  return static_cast<int>(std::count_if(
-      network.problem->control.begin(), network.problem->control.end(),
-      [&](const Control& c) { return network.layout.kept_of_point[at(c.point)] >= 0; }));
+int believed_control(const Network& network, const TermOptions& options) {
+  int count = 0;
+  for (int i = 0; i < static_cast<int>(network.problem->control.size()); ++i) {
+    const int point = network.problem->control[at(i)].point;
+    const bool believed = weight_of(options.control_weights, i) > 0;
+    count += believed && network.layout.kept_of_point[at(point)] >= 0 ? 1 : 0;
+  }
+  return count;
 }
 
 bool has_kappa(const Network& network) {
@@ -95,12 +99,15 @@ bool has_kappa(const Network& network) {
   return false;
 }
 
-bool has_length(const Network& network) {
-  return std::any_of(network.problem->lengths.begin(), network.problem->lengths.end(),
-                     [&](const Length& length) {
-                       return network.layout.kept_of_point[at(length.point_a)] >= 0 &&
-                              network.layout.kept_of_point[at(length.point_b)] >= 0;
-                     });
+bool has_length(const Network& network, const TermOptions& options) {
+  for (int i = 0; i < static_cast<int>(network.problem->lengths.size()); ++i) {
+    const Length& length = network.problem->lengths[at(i)];
+    if (weight_of(options.length_weights, i) > 0 &&
+        network.layout.kept_of_point[at(length.point_a)] >= 0 &&
+        network.layout.kept_of_point[at(length.point_b)] >= 0)
+      return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -109,8 +116,9 @@ DatumDefect datum_defect(const Network& network, const TermOptions& options) {
   if (options.datum == Datum::kFree) return {true, true, true};
   // A station and a control point fix scale and azimuth as two of either do.
   const int places =
-      static_cast<int>(station_slots(network, options).size()) + kept_control(network);
-  return {places == 0, places < 2 && !has_kappa(network), places < 2 && !has_length(network)};
+      static_cast<int>(station_slots(network, options).size()) + believed_control(network, options);
+  return {places == 0, places < 2 && !has_kappa(network),
+          places < 2 && !has_length(network, options)};
 }
 
 void add_datum_terms(const Network& network, const State& state, const State& start,

@@ -78,7 +78,8 @@ LocalFrameFit fit_local_frame(const Network& network, const State& state,
   if (!lu.isInvertible()) return fit;
   const Matrix7 a = lu.inverse();
   const Eigen::MatrixXd b = a * summed;  // similarity by columns
-  const Eigen::MatrixXd cb = covariance.common() * b.transpose();
+  fit.with_columns = covariance.common() * b.transpose();
+  const Eigen::MatrixXd& cb = fit.with_columns;
   fit.determined = true;
   fit.common_covariance = b * cb + a * own_sum * a;
   std::vector<bool> in_frame(point_covariances.size(), false);

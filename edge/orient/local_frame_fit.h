@@ -14,6 +14,8 @@ namespace plumbline::orient {
 // about it in rad, relative scale); own: what remains about it.
 struct LocalFrameFit {
   Eigen::Matrix<double, 7, 7> common_covariance = Eigen::Matrix<double, 7, 7>::Zero();
+  // Its covariance with the columns of the reduced system, columns x 7.
+  Eigen::MatrixXd with_columns;
   bool determined = false;                           // false: too few points, or all on one line
   std::vector<Eigen::Matrix3d> local_covariance_m2;  // by point; zero where not measured
 };

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <optional>
@@ -14,6 +15,19 @@ namespace plumbline::orient {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
+// How well the rest of the network checks a station (Baarda 1968).
+struct StationCheck {
+  int directions = 0;    // that can be checked at all
+  double statistic = 0;  // chi-square of that many degrees of freedom where the station is right
+  double critical = 0;   // beyond which it is said to be wrong: 1 % of all flights by design
+  double noncentrality = 0;  // of the smallest error found with 99 %
+  // The non-centrality of the statistic under an error g (east, north, up) is g' detectability g.
+  Eigen::Matrix3d detectability = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d redundancy = Eigen::Vector3d::Zero();  // east, north, up: 0 = unchecked, 1
+  // The smallest error along each axis alone that is found with 99 %; infinite: none is.
+  Eigen::Vector3d minimal_detectable_m = Eigen::Vector3d::Zero();
+};
+
 struct OrientedPhoto {
   bool oriented = false;  // false: nothing below is known
   geometry::Pose pose;
@@ -24,6 +38,7 @@ struct OrientedPhoto {
   // Antenna as measured minus as adjusted; zero size where there is no station.
   std::optional<Eigen::Vector3d> gnss_residual_m;
   bool station_rejected = false;
+  std::optional<StationCheck> station_check;
 };
 
 struct MeasuredPoint {
@@ -41,12 +56,35 @@ struct ObservationResidual {
   Eigen::Vector2d residual_px = Eigen::Vector2d::Zero();  // measured minus computed
   double sigma_px = 0;                                    // as used at the end
   bool used = false;
+  // Of u and v: the share of an error that shows in the residual (redundancy number), and the
+  // residual over its own sigma (w test, Baarda 1968). A rejected observation, not part of the
+  // adjustment, is compared with what the rest predicts; its redundancy is NaN. NaN, too, where
+  // its point was not measured.
+  Eigen::Vector2d redundancy = Eigen::Vector2d::Constant(std::nan(""));
+  Eigen::Vector2d w = Eigen::Vector2d::Constant(std::nan(""));
 };
 
 // A quantity that the data do not fix, and what to do about it.
 struct Unobservable {
   std::string name;      // azimuth, tilt, focal_length, scale, height, position, ...
   std::string sentence;  // with its figures: what is not known, and what would make it so
+};
+
+// Something known before that all the rest contradicts. It was not used.
+struct Blunder {
+  std::string kind;      // station, length, control, focal_length, interior, exchanged_names
+  std::string subject;   // the photo, the points or the parameter
+  std::string sentence;  // with its figures
+  double size = 0;       // of the error, in the unit of the thing (m, px)
+  double statistic = 0;  // and the critical value it exceeded
+  double critical = 0;
+};
+
+// A quantity that one single thing carries, so that nothing would show if that were wrong.
+struct Unchecked {
+  std::string quantity;  // azimuth, scale, ...
+  std::string subject;
+  std::string sentence;
 };
 
 // Standard deviations of what is common to the whole. Infinity: not fixed by anything.
@@ -73,7 +111,9 @@ struct Summary {
   double flying_height_m = 0;  // median height of the stations above the median ground
   CommonSigmas common;
   std::vector<Unobservable> unobservable;
-  std::vector<std::string> warnings;  // sentences
+  std::vector<Blunder> blunders;
+  std::vector<Unchecked> unchecked;
+  std::vector<std::string> warnings;  // sentences; those of blunders and unchecked among them
 };
 
 // Covariance between any of the adjusted points. Kept because a distance, an area or a joint test

@@ -6,6 +6,8 @@
 #include <cstdio>
 
 #include "edge/geometry/rotation.h"
+#include "edge/orient/findings.h"
+#include "edge/orient/observation_residuals.h"
 
 namespace plumbline::orient {
 namespace {
@@ -36,26 +38,14 @@ OrientedPhoto oriented(const Finished& f, int slot) {
           .cwiseMax(0)
           .cwiseSqrt();
   if (const auto& station = f.network.photo(slot).station) {
-    photo.gnss_residual_m = station->antenna_in_enu_m - photo.pose.centre_m -
+    const Eigen::Vector3d late =
+        f.state.delay_s *
+        f.network.photo(slot).velocity_in_enu_m_s.value_or(Eigen::Vector3d::Zero());
+    photo.gnss_residual_m = station->antenna_in_enu_m + late - photo.pose.centre_m -
                             photo.pose.ground_from_photo * f.network.problem->lever_arm.in_photo_m;
-    photo.station_rejected =
-        !f.terms.station_weights.empty() && f.terms.station_weights[at(slot)] == 0;
+    photo.station_rejected = weight_of(f.terms.station_weights, slot) == 0;
   }
   return photo;
-}
-
-// Residuals of all rays, the rejected ones too.
-std::vector<ObservationResidual> residuals_of(const Finished& f) {
-  std::vector<ObservationResidual> out(f.network.problem->observations.size());
-  for (const Ray& ray : f.network.rays) {
-    ObservationResidual& residual = out[at(ray.observation)];
-    residual.sigma_px = ray.sigma_px;
-    residual.used = ray.used;
-    if (const auto computed_minus_measured = residual_of(ray, f.state)) {
-      residual.residual_px = -*computed_minus_measured;
-    }
-  }
-  return out;
 }
 
 void fill_points(const Finished& f, const std::vector<Eigen::Matrix3d>& covariances,
@@ -123,19 +113,11 @@ void warn_of_correlation(Summary& summary) {
   summary.warnings.push_back(sentence);
 }
 
-void warn_of_rejected(const Finished& f, const Solution& solution, Summary& summary) {
+void warn_of_left_out(const Finished& f, const Solution& solution, Summary& summary) {
   for (std::size_t i = 0; i < solution.photos.size(); ++i) {
-    const OrientedPhoto& photo = solution.photos[i];
-    const std::string& name = f.network.problem->photos[i].name;
-    if (!photo.oriented) {
-      summary.warnings.push_back("Photo " + name +
-                                 " shares too few points with the others and was left out.");
-    } else if (photo.station_rejected) {
-      char size[32];
-      std::snprintf(size, sizeof size, "%.2f m", photo.gnss_residual_m->norm());
-      summary.warnings.push_back("The GNSS position of photo " + name +
-                                 " disagrees with all others by " + size + " and was not used.");
-    }
+    if (solution.photos[i].oriented) continue;
+    summary.warnings.push_back("Photo " + f.network.problem->photos[i].name +
+                               " shares too few points with the others and was left out.");
   }
 }
 
@@ -148,7 +130,7 @@ Solution solution_of(const Finished& f, const Options& options) {
   for (int slot = 0; slot < f.network.slots(); ++slot) {
     solution.photos[at(f.network.photo_of_slot[at(slot)])] = oriented(f, slot);
   }
-  solution.residuals = residuals_of(f);
+  solution.residuals = observation_residuals(f);
   const std::vector<Eigen::Matrix3d> covariances = f.covariance.point_covariances();
   const LocalFrameFit frame = fit_local_frame(f.network, f.state, f.covariance, covariances);
   fill_points(f, covariances, frame, solution);
@@ -163,7 +145,8 @@ Solution solution_of(const Finished& f, const Options& options) {
   const Evidence evidence{f.network, f.state, f.terms, f.covariance, frame};
   summary.common = common_sigmas(evidence, summary.flying_height_m);
   summary.unobservable = unobservable(evidence, summary.common, options);
-  warn_of_rejected(f, solution, summary);
+  warn_of_left_out(f, solution, summary);
+  add_findings(f, frame, solution);
   warn_of_correlation(summary);
   for (std::string& sentence : cautions(evidence, summary.common)) {
     summary.warnings.push_back(std::move(sentence));

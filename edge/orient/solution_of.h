@@ -2,6 +2,7 @@
 #pragma once
 
 #include "edge/orient/adjust.h"
+#include "edge/orient/claims.h"
 #include "edge/orient/covariance.h"
 #include "edge/orient/diagnosis.h"
 #include "edge/orient/group_fits.h"
@@ -15,6 +16,9 @@ struct Finished {
   const TermOptions& terms;
   const NetworkCovariance& covariance;
   const GroupFits& fits;
+  const Terms& linear;  // the terms at `state`
+  const State& start;   // what the datum holds on to
+  std::vector<Claim> rejected;
   int iterations = 0;
   bool converged = false;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "edge/base/units.h"
 #include "edge/geometry/rotation.h"
@@ -25,7 +26,7 @@ Term camera_term(const Network& network, const State& state, const TermOptions& 
   Term term{"camera", range(0, kInteriorCount), {}, {}, {}};
   term.residual = state.interior - network.problem->camera.interior;
   term.jacobian = geometry::InteriorMatrix::Identity();
-  term.information = prior_information(network.problem->camera);
+  term.information = prior_information(believed_camera(network, options));
   if (options.bridle_interior) term.information += bridle_information(network.problem->camera);
   return term;
 }
@@ -40,6 +41,14 @@ void add_line_time(const Network& network, const State& state, std::vector<Term>
   terms.push_back(std::move(term));
 }
 
+void add_delay(const Network& network, const State& state, std::vector<Term>& terms) {
+  if (network.shared_mask[kDelay] == 0) return;
+  const Delay& delay = network.problem->delay;
+  Term term = scalar_term("delay", {kDelay}, state.delay_s - delay.seconds, delay.sigma_s);
+  term.jacobian(0, 0) = 1;
+  terms.push_back(std::move(term));
+}
+
 std::vector<int> pose_columns(const Network& network, const std::vector<int>& slots) {
   std::vector<int> columns;
   for (const int slot : slots) {
@@ -48,20 +57,30 @@ std::vector<int> pose_columns(const Network& network, const std::vector<int>& sl
   return columns;
 }
 
-// Antenna = C + R l. For R <- exp([d]x) R its derivative by d is -[R l]x.
+Eigen::Vector3d velocity(const Photo& photo) {
+  return photo.velocity_in_enu_m_s.value_or(Eigen::Vector3d::Zero());
+}
+
+// Antenna at the exposure = C + R l; a delay of d seconds earlier, when the station was taken, it
+// was V d behind. For R <- exp([r]x) R the derivative by r is -[R l]x. The velocity is taken as
+// known: 0.1 m/s wrong at a delay of 20 ms is 2 mm.
 void add_stations(const Network& network, const State& state, const TermOptions& options,
                   std::vector<Term>& terms) {
   const std::vector<int> slots = station_slots(network, options);
   if (slots.empty()) return;
   const auto rows = static_cast<Eigen::Index>(3 * slots.size());
   Term term{"gnss", pose_columns(network, slots), Eigen::VectorXd(rows), {}, {}};
-  term.jacobian.setZero(rows, 2 * rows);
+  const bool delayed = network.shared_mask[kDelay] != 0;
+  if (delayed) term.columns.push_back(kDelay);
+  term.jacobian.setZero(rows, static_cast<Eigen::Index>(term.columns.size()));
   for (std::size_t k = 0; k < slots.size(); ++k) {
     const auto row = static_cast<Eigen::Index>(3 * k);
     const geometry::Pose& pose = state.poses[at(slots[k])];
     const Eigen::Vector3d arm = pose.ground_from_photo * network.problem->lever_arm.in_photo_m;
-    term.residual.segment<3>(row) =
-        pose.centre_m + arm - network.photo(slots[k]).station->antenna_in_enu_m;
+    term.residual.segment<3>(row) = pose.centre_m + arm -
+                                    state.delay_s * velocity(network.photo(slots[k])) -
+                                    network.photo(slots[k]).station->antenna_in_enu_m;
+    if (delayed) term.jacobian.block<3, 1>(row, 2 * rows) = -velocity(network.photo(slots[k]));
     term.jacobian.block<3, 3>(row, 2 * row).setIdentity();
     term.jacobian.block<3, 3>(row, 2 * row + 3) = -geometry::cross_matrix(arm);
   }
@@ -118,43 +137,67 @@ void add_attitude(const Network& network, const State& state, int slot, const Te
   }
 }
 
-void add_lengths(const Network& network, const State& state, std::vector<Term>& terms) {
+void add_lengths(const Network& network, const State& state, const TermOptions& options,
+                 std::vector<Term>& terms) {
   const Layout& layout = network.layout;
-  for (const Length& length : network.problem->lengths) {
+  for (int i = 0; i < static_cast<int>(network.problem->lengths.size()); ++i) {
+    const Length& length = network.problem->lengths[at(i)];
+    const double weight = weight_of(options.length_weights, i);
+    if (weight == 0) continue;
     const int a = layout.kept_of_point[at(length.point_a)];
     const int b = layout.kept_of_point[at(length.point_b)];
     if (a < 0 || b < 0) continue;
     const Eigen::Vector3d difference =
         state.points[at(length.point_b)] - state.points[at(length.point_a)];
     std::vector<int> columns = range(layout.kept_point(a), 3);
-    for (int i = 0; i < 3; ++i) columns.push_back(layout.kept_point(b) + i);
+    for (int axis = 0; axis < 3; ++axis) columns.push_back(layout.kept_point(b) + axis);
     const double metres = std::max(difference.norm(), 1e-9);
     Term term = scalar_term("lengths", std::move(columns), metres - length.metres,
-                            std::max(length.sigma_m, kLeastSigmaM));
+                            std::max(length.sigma_m, kLeastSigmaM) / std::sqrt(weight));
+    term.subject = i;
     term.jacobian << -difference.transpose() / metres, difference.transpose() / metres;
     terms.push_back(std::move(term));
   }
 }
 
-void add_control(const Network& network, const State& state, std::vector<Term>& terms) {
-  for (const Control& control : network.problem->control) {
+void add_control(const Network& network, const State& state, const TermOptions& options,
+                 std::vector<Term>& terms) {
+  for (int i = 0; i < static_cast<int>(network.problem->control.size()); ++i) {
+    const Control& control = network.problem->control[at(i)];
     const int kept = network.layout.kept_of_point[at(control.point)];
-    if (kept < 0) continue;
+    const double weight = weight_of(options.control_weights, i);
+    if (kept < 0 || weight == 0) continue;
     const Eigen::Matrix3d floor = kLeastSigmaM * kLeastSigmaM * Eigen::Matrix3d::Identity();
     terms.push_back({"control", range(network.layout.kept_point(kept), 3),
                      state.points[at(control.point)] - control.in_enu_m,
-                     Eigen::Matrix3d::Identity(), (control.covariance_m2 + floor).inverse()});
+                     Eigen::Matrix3d::Identity(),
+                     weight * (control.covariance_m2 + floor).inverse(), i});
   }
 }
 
 }  // namespace
 
+double weight_of(const std::vector<double>& weights, int index) {
+  return weights.empty() ? 1 : weights[at(index)];
+}
+
+geometry::Camera believed_camera(const Network& network, const TermOptions& options) {
+  constexpr double kFree = std::numeric_limits<double>::infinity();
+  geometry::Camera camera = network.problem->camera;
+  for (int i = 0; i < kInteriorCount; ++i) {
+    if (!options.interior_freed[at(i)]) continue;
+    camera.sigma[i] = kFree;
+    if (camera.covariance) (*camera.covariance)(i, i) = kFree;
+  }
+  return camera;
+}
+
 std::vector<int> station_slots(const Network& network, const TermOptions& options) {
   std::vector<int> slots;
   if (options.datum == Datum::kFree) return slots;
   for (int slot = 0; slot < network.slots(); ++slot) {
-    const bool believed = options.station_weights.empty() || options.station_weights[at(slot)] > 0;
-    if (network.photo(slot).station && believed) slots.push_back(slot);
+    if (network.photo(slot).station && weight_of(options.station_weights, slot) > 0)
+      slots.push_back(slot);
   }
   return slots;
 }
@@ -181,8 +224,7 @@ Eigen::MatrixXd station_covariance(const Network& network, const State& state,
       block += arm.sigma_m * arm.sigma_m * state.poses[at(slots[i])].ground_from_photo *
                state.poses[at(slots[j])].ground_from_photo.transpose();
       if (i == j) {
-        const double weight =
-            options.station_weights.empty() ? 1 : options.station_weights[at(slots[i])];
+        const double weight = weight_of(options.station_weights, slots[i]);
         block +=
             (a.station->covariance_m2 + kLeastSigmaM * kLeastSigmaM * Eigen::Matrix3d::Identity()) /
             weight;
@@ -203,10 +245,11 @@ std::vector<Term> linearised_terms(const Network& network, const State& state, c
     add_attitude(network, state, slot, options, terms);
   }
   if (options.datum == Datum::kKnown) {
+    add_delay(network, state, terms);
     add_stations(network, state, options, terms);
     add_headings(network, state, terms);
-    add_lengths(network, state, terms);
-    add_control(network, state, terms);
+    add_lengths(network, state, options, terms);
+    add_control(network, state, options, terms);
   }
   add_datum_terms(network, state, start, options, terms);
   return terms;

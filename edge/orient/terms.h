@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@ struct Term {
   Eigen::VectorXd residual;
   Eigen::MatrixXd jacobian;  // residual by columns
   Eigen::MatrixXd information;
+  int subject = -1;  // lengths, control: its index in the problem
 };
 
 // What holds the network in space.
@@ -29,9 +31,20 @@ struct TermOptions {
   Datum datum = Datum::kKnown;
   double tilt_sigma_rad = 0;
   bool bridle_interior = false;  // the first, crude stage holds a free camera near its start
-  // Per slot: 1 = as stated, towards 0 = not believed, 0 = rejected.
+  // How far what is known is believed: 1 = as stated, towards 0 = not, 0 = rejected. By slot, and
+  // by index in the problem; empty: all as stated.
   std::vector<double> station_weights;
+  std::vector<double> length_weights;
+  std::vector<double> control_weights;
+  // Parameters of the interior whose calibration is not believed: they are free.
+  std::array<bool, geometry::kInteriorCount> interior_freed{};
 };
+
+// 1 where `weights` is empty.
+double weight_of(const std::vector<double>& weights, int index);
+
+// The camera before the adjustment, as far as it is believed.
+geometry::Camera believed_camera(const Network& network, const TermOptions& options);
 
 // Gauge freedoms of the network that nothing known removes.
 struct DatumDefect {

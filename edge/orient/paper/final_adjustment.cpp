@@ -143,8 +143,17 @@ Result<FinalAdjustment> adjust_all(const FramedCase& framed, const Adjusted& sta
     }
     const GroupFits fits = group_fits(network, *covariance, rays.rays, linear);
     if (rescale_by_variance(network, fits) > kSigmaSettled && round < kMaxRounds) continue;
-    Solution solution = solution_of(
-        {network, minimum.state, terms, *covariance, fits, iterations, minimum.converged}, options);
+    Solution solution = solution_of({network,
+                                     minimum.state,
+                                     terms,
+                                     *covariance,
+                                     fits,
+                                     linear,
+                                     datum,
+                                     {},
+                                     iterations,
+                                     minimum.converged},
+                                    options);
     name_priors(solution.summary);
     auto framed_solution = in_three_point_frame(problem, solution, framed.roles, options);
     if (!framed_solution) return framed_solution.error();

@@ -27,6 +27,7 @@ double step_of(int column) {
 void expect_true_jacobians(const SmallNetwork& small) {
   const auto terms = linearised_terms(small.network, small.state, small.datum, small.options);
   for (int column = 0; column < small.network.layout.columns(); ++column) {
+    if (column < kShared && small.network.shared_mask[column] == 0) continue;  // held fixed
     const double h = step_of(column);
     const auto after = linearised_terms(
         small.network, nudged(small.network, small.state, column, h), small.datum, small.options);
@@ -72,6 +73,14 @@ TEST(Terms, HaveTrueDerivativesWhereAPhotoLooksTheOtherWayRound) {
     small.state.poses[2].ground_from_photo = turned;
     expect_true_jacobians(small);
   }
+}
+
+TEST(Terms, HaveTrueDerivativesByADelayThatIsFree) {
+  SmallNetwork small(9);
+  small.problem.delay = {0.1, 0.05};
+  small.network.shared_mask[kDelay] = 1;
+  EXPECT_TRUE(groups(small).contains("delay"));
+  expect_true_jacobians(small);
 }
 
 TEST(Terms, HaveTrueDerivativesWhereNothingIsKnown) {

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "edge/orient/covariance.h"
+#include "edge/orient/network.h"
+#include "edge/orient/reliability.h"
+#include "edge/orient/terms.h"
+
+namespace plumbline::orient {
+
+// Something that the input claims beside the image rays, and that can be wrong as a whole.
+enum class ClaimKind { kStation, kLength, kControl, kInterior };
+
+struct Claim {
+  ClaimKind kind = ClaimKind::kStation;
+  int index = 0;  // slot; index in Problem::lengths or control; parameter of the interior
+  bool operator==(const Claim&) const = default;
+};
+
+struct ClaimTest {
+  Claim claim;
+  RowsTest rows;
+  Threshold threshold;
+  bool believed = true;  // false: it was no part of the adjustment
+
+  bool fails() const { return rows.dof > 0 && rows.statistic > threshold.critical; }
+};
+
+// What stands, and what is said to be wrong.
+using Terms = std::vector<Term>;
+
+// Tests each claim that took part. All that can be checked are one family for the false alarms, the
+// rejected ones among them. Of the interior only what somebody calibrated is a claim.
+std::vector<ClaimTest> test_claims(const Network& network, const TermOptions& options,
+                                   const Terms& terms, const NetworkCovariance& covariance);
+
+// How many tests share the false alarms with those of `believed`.
+int family_size(const std::vector<ClaimTest>& believed, const TermOptions& options);
+
+// Tests a claim that took no part, against the adjustment without it; `tests` share the false
+// alarms.
+ClaimTest test_rejected(const Claim& claim, const Network& network, const State& state,
+                        const State& start, const TermOptions& options,
+                        const NetworkCovariance& covariance, int tests);
+
+void set_believed(const Claim& claim, bool believed, const Network& network, TermOptions& options);
+
+// "the GNSS position of photo X", "the known length from A to B", ...
+std::string in_words(const Claim& claim, const Network& network);
+
+// Where the rows of a claim are: which term of the list, and which rows. -1: it has none.
+struct ClaimRows {
+  int term = -1;
+  int first = 0;
+  int count = 0;
+};
+ClaimRows rows_of(const Claim& claim, const Network& network, const TermOptions& options,
+                  const Terms& terms);
+
+// Every claim that took part in the adjustment.
+std::vector<Claim> believed_claims(const Network& network, const TermOptions& options,
+                                   const Terms& terms);
+
+}  // namespace plumbline::orient

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include "edge/orient/findings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "edge/base/units.h"
+#include "edge/orient/exchanged_names.h"
+
+namespace plumbline::orient {
+namespace {
+
+// A quantity rests on a claim alone where the claim takes all but this share of its variance away.
+constexpr double kCarriedByOthers = 0.02;
+
+template <typename... Arguments>
+std::string text(const char* format, Arguments... arguments) {
+  char buffer[512];
+  std::snprintf(buffer, sizeof buffer, format, arguments...);
+  return buffer;
+}
+
+std::string capital(std::string sentence) {
+  if (!sentence.empty() && sentence[0] >= 'a' && sentence[0] <= 'z')
+    sentence[0] = static_cast<char>(sentence[0] - 'a' + 'A');
+  return sentence;
+}
+
+const char* kind_of(const Claim& claim) {
+  switch (claim.kind) {
+    case ClaimKind::kStation:
+      return "station";
+    case ClaimKind::kLength:
+      return "length";
+    case ClaimKind::kControl:
+      return "control";
+    case ClaimKind::kInterior:
+      break;
+  }
+  return claim.index == geometry::kFocalLength ? "focal_length" : "interior";
+}
+
+std::string subject_of(const Claim& claim, const Network& network) {
+  const std::string words = in_words(claim, network);
+  for (const std::string start : {"the GNSS position of photo ", "the known length from ",
+                                  "the control point ", "the calibrated "}) {
+    if (words.starts_with(start)) return words.substr(start.size());
+  }
+  return words;
+}
+
+double size_of(const ClaimTest& test, const Finished& f) {
+  if (test.claim.kind == ClaimKind::kInterior)
+    return f.network.problem->camera.interior[test.claim.index] -
+           f.state.interior[test.claim.index];
+  return test.rows.gross_error.size() == 1 ? test.rows.gross_error[0]
+                                           : test.rows.gross_error.norm();
+}
+
+std::string sentence_of(const ClaimTest& test, double size, const Finished& f) {
+  const double sigmas = std::sqrt(test.rows.statistic);
+  const std::string what = capital(in_words(test.claim, f.network));
+  switch (test.claim.kind) {
+    case ClaimKind::kStation:
+      return what + text(" disagrees with all others by %.2f m (%.1f sigma) and was not used.",
+                         size, sigmas);
+    case ClaimKind::kLength:
+      return what + text(" is %.3f m too %s by all the rest (%.1f sigma) and was not used.",
+                         std::abs(size), size > 0 ? "long" : "short", sigmas);
+    case ClaimKind::kControl:
+      return what +
+             text(" is off by %.3f m by all the rest (%.1f sigma) and was not used.", size, sigmas);
+    case ClaimKind::kInterior:
+      break;
+  }
+  const double given = f.network.problem->camera.interior[test.claim.index];
+  if (test.claim.index == geometry::kFocalLength)
+    return what + text(
+                      " (%.1f px) is off by %.2g %% (%.1f sigma): photos and positions ask for "
+                      "%.1f px, which was used.",
+                      given, 100 * std::abs(size) / f.state.interior[0], sigmas,
+                      f.state.interior[0]);
+  return what + text(" (%.4g) is contradicted by the photos (%.1f sigma): %.4g was used.", given,
+                     sigmas, f.state.interior[test.claim.index]);
+}
+
+void add_blunder(const ClaimTest& test, const Finished& f, Solution& solution) {
+  const Claim& claim = test.claim;
+  Blunder blunder;
+  blunder.kind = kind_of(claim);
+  blunder.subject = subject_of(claim, f.network);
+  blunder.size = size_of(test, f);
+  blunder.statistic = test.rows.statistic;
+  blunder.critical = test.threshold.critical;
+  blunder.sentence = sentence_of(test, blunder.size, f);
+  solution.summary.warnings.push_back(blunder.sentence);
+  solution.summary.blunders.push_back(std::move(blunder));
+}
+
+StationCheck station_check(const ClaimTest& test) {
+  StationCheck check;
+  check.directions = test.rows.dof;
+  check.statistic = test.rows.statistic;
+  check.critical = test.threshold.critical;
+  check.noncentrality = test.threshold.noncentrality;
+  check.detectability = test.rows.detectability;
+  check.redundancy = test.rows.redundancy;
+  check.minimal_detectable_m = minimal_detectable(test.rows, check.noncentrality);
+  return check;
+}
+
+void check_stations(const std::vector<ClaimTest>& tests, const Finished& f, Solution& solution) {
+  for (const ClaimTest& test : tests) {
+    if (test.claim.kind != ClaimKind::kStation || test.rows.redundancy.size() == 0) continue;
+    const int photo = f.network.photo_of_slot[at(test.claim.index)];
+    solution.photos[at(photo)].station_check = station_check(test);
+  }
+}
+
+// What is common to the whole, and one figure each for what it would be without a claim.
+struct Quantity {
+  const char* name;
+  const char* words;
+  const char* unit;
+  double factor;
+  double variance;  // as adjusted
+  int place;        // of the similarity (0 to 6), 7 = focal length
+};
+
+std::vector<Quantity> quantities(const Finished& f, const LocalFrameFit& frame) {
+  const DatumDefect defect = datum_defect(f.network, f.terms);
+  const auto& c = frame.common_covariance;
+  std::vector<Quantity> out;
+  if (!defect.azimuth) out.push_back({"azimuth", "azimuth", "degrees", kDegPerRad, c(5, 5), 5});
+  if (!defect.scale) out.push_back({"scale", "scale", "%", 100, c(6, 6), 6});
+  if (!defect.translation) {
+    const int plan = c(0, 0) > c(1, 1) ? 0 : 1;
+    out.push_back({"position", "position in plan", "m", 1, c(plan, plan), plan});
+    out.push_back({"position_height", "height of the whole", "m", 1, c(2, 2), 2});
+  }
+  const int tilt = c(3, 3) > c(4, 4) ? 3 : 4;
+  out.push_back({"tilt", "level", "degrees", kDegPerRad, c(tilt, tilt), tilt});
+  const double variance = f.covariance.common()(0, 0);
+  out.push_back({"focal_length", "focal length", "px", 1, variance, 7});
+  return out;
+}
+
+std::string figure(double value, const Quantity& q) {
+  return text("%.2g %s", value * q.factor, q.unit);
+}
+
+std::string sentence_of(const Quantity& q, const std::string& subject, double without) {
+  const double known = std::sqrt(std::max(0.0, q.variance));
+  const bool nothing = !(without < 1e3 * std::max(known, 1e-6));
+  return std::string("The ") + q.words + " (sigma " + figure(known, q) + ") rests on " + subject +
+         " alone: nothing checks it. Were that wrong, no residual would show it; without it the " +
+         q.words +
+         (nothing ? " would not be known." : " would be known to " + figure(without, q) + " only.");
+}
+
+// The variance of each quantity that is lost without a claim.
+Eigen::VectorXd lost(const Claim& claim, const Finished& f, const Eigen::MatrixXd& with_columns) {
+  const ClaimRows rows = rows_of(claim, f.network, f.terms, f.linear);
+  const TermReliability reliability(f.linear[at(rows.term)], f.covariance);
+  return reliability.lost_without(rows.first, rows.count, with_columns).diagonal();
+}
+
+void add_unchecked(const Finished& f, const LocalFrameFit& frame, Solution& solution) {
+  if (!frame.determined) return;
+  Eigen::MatrixXd with_columns(f.network.layout.columns(), 8);
+  with_columns << frame.with_columns, f.covariance.common().col(geometry::kFocalLength);
+  const auto all = quantities(f, frame);
+  for (const Claim& claim : believed_claims(f.network, f.terms, f.linear)) {
+    // What rests on the calibration is said where the focal length is judged.
+    if (claim.kind == ClaimKind::kInterior) continue;
+    const Eigen::VectorXd gone = lost(claim, f, with_columns);
+    for (const Quantity& q : all) {
+      if (!(q.variance > 0) || q.variance > kCarriedByOthers * (q.variance + gone[q.place]))
+        continue;
+      const std::string subject = in_words(claim, f.network);
+      Unchecked item{q.name, subject_of(claim, f.network),
+                     sentence_of(q, subject, std::sqrt(q.variance + gone[q.place]))};
+      solution.summary.warnings.push_back(item.sentence);
+      solution.summary.unchecked.push_back(std::move(item));
+    }
+  }
+}
+
+}  // namespace
+
+void add_findings(const Finished& f, const LocalFrameFit& frame, Solution& solution) {
+  const auto believed = test_claims(f.network, f.terms, f.linear, f.covariance);
+  const int family = family_size(believed, f.terms);
+  std::vector<ClaimTest> rejected;
+  for (const Claim& claim : f.rejected)
+    rejected.push_back(
+        test_rejected(claim, f.network, f.state, f.start, f.terms, f.covariance, family));
+  for (const ClaimTest& test : rejected) add_blunder(test, f, solution);
+  for (Blunder& blunder : exchanged_names(f)) {
+    solution.summary.warnings.push_back(blunder.sentence);
+    solution.summary.blunders.push_back(std::move(blunder));
+  }
+  check_stations(believed, f, solution);
+  check_stations(rejected, f, solution);
+  add_unchecked(f, frame, solution);
+}
+
+}  // namespace plumbline::orient

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "edge/orient/local_frame_fit.h"
+#include "edge/orient/solution.h"
+#include "edge/orient/solution_of.h"
+
+namespace plumbline::orient {
+
+// Says in the summary, and of each station in its photo, what was found to be wrong and what
+// nothing checks. Needs the residuals of `solution` and its oriented photos.
+void add_findings(const Finished& finished, const LocalFrameFit& frame, Solution& solution);
+
+}  // namespace plumbline::orient
