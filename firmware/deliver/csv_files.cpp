@@ -57,6 +57,17 @@ std::string map_cells(const MapPlace& place) {
          numbers({place.x_north_m, place.y_east_m}, kMetreDecimals);
 }
 
+// What the rest checks of the station; an error that nothing would show is left blank.
+std::string station_cells(const orient::OrientedPhoto& photo) {
+  if (!photo.station_check) return blanks(10);
+  const orient::StationCheck& check = *photo.station_check;
+  return three(check.redundancy, kPixelDecimals) +
+         three(check.minimal_detectable_m, kPixelDecimals) + "," +
+         std::to_string(check.directions) +
+         numbers({check.statistic, check.critical}, kPixelDecimals) +
+         (photo.station_rejected ? ",0" : ",1");
+}
+
 std::string photo_cells(const orient::OrientedPhoto& photo) {
   const geometry::OmegaPhiKappa angles = geometry::angles_of(photo.pose.ground_from_photo);
   const Eigen::Vector3d opk(angles.omega_rad, angles.phi_rad, angles.kappa_rad);
@@ -64,7 +75,8 @@ std::string photo_cells(const orient::OrientedPhoto& photo) {
   return three(photo.pose.centre_m, kMetreDecimals) + three(opk * kDegPerRad, kAngleDecimals) +
          three(sigma_m, kMetreDecimals) +
          three(photo.sigma_omega_phi_kappa_rad * kDegPerRad, kAngleDecimals) +
-         (photo.gnss_residual_m ? three(*photo.gnss_residual_m, kMetreDecimals) : blanks(3));
+         (photo.gnss_residual_m ? three(*photo.gnss_residual_m, kMetreDecimals) : blanks(3)) +
+         station_cells(photo);
 }
 
 std::string observation_line(const Product& product, std::size_t i) {
@@ -79,7 +91,10 @@ std::string observation_line(const Product& product, std::size_t i) {
          numbers({observation.pixel.x(), observation.pixel.y(), sigma_px}, kPixelDecimals) +
          (known ? numbers({residual.residual_px.x(), residual.residual_px.y()}, kPixelDecimals)
                 : blanks(2)) +
-         (residual.used ? ",1\n" : ",0\n");
+         (residual.used ? ",1" : ",0") +
+         numbers({residual.redundancy.x(), residual.redundancy.y(), residual.w.x(), residual.w.y()},
+                 kPixelDecimals) +
+         "\n";
 }
 
 }  // namespace
@@ -109,17 +124,21 @@ std::string photos_csv(const Product& product) {
   std::string text =
       "photo,e_m,n_m,u_m,omega_deg,phi_deg,kappa_deg,sigma_e_m,sigma_n_m,sigma_u_m,"
       "sigma_omega_deg,sigma_phi_deg,sigma_kappa_deg,gnss_residual_e_m,gnss_residual_n_m,"
-      "gnss_residual_u_m\n";
+      "gnss_residual_u_m,gnss_redundancy_e,gnss_redundancy_n,gnss_redundancy_u,gnss_detectable_e_m,"
+      "gnss_detectable_n_m,gnss_detectable_u_m,gnss_directions,gnss_statistic,gnss_critical,"
+      "gnss_used\n";
   for (std::size_t i = 0; i < product.solution.photos.size(); ++i) {
     const orient::OrientedPhoto& photo = product.solution.photos[i];
     text += cell(product.problem.photos[i].name) +
-            (photo.oriented ? photo_cells(photo) : blanks(15)) + "\n";
+            (photo.oriented ? photo_cells(photo) : blanks(25)) + "\n";
   }
   return text;
 }
 
 std::string observations_csv(const Product& product) {
-  std::string text = "photo,point,u_px,v_px,sigma_px,residual_u_px,residual_v_px,used\n";
+  std::string text =
+      "photo,point,u_px,v_px,sigma_px,residual_u_px,residual_v_px,used,"
+      "redundancy_u,redundancy_v,w_u,w_v\n";
   for (std::size_t i = 0; i < product.problem.observations.size(); ++i)
     text += observation_line(product, i);
   return text;

@@ -61,6 +61,23 @@ void add_adjustment(Json& json, const Product& product) {
   json["observations_rejected"] = summary.observations_rejected;
 }
 
+// What was found to be wrong and was not used, and what one single thing carries.
+void add_blunders(Json& json, const orient::Summary& summary) {
+  json["blunders"] = Json::array();
+  for (const orient::Blunder& blunder : summary.blunders)
+    json["blunders"].push_back({{"kind", clean_utf8(blunder.kind)},
+                                {"subject", clean_utf8(blunder.subject)},
+                                {"size", number(blunder.size)},
+                                {"statistic", number(blunder.statistic)},
+                                {"critical", number(blunder.critical)},
+                                {"sentence", clean_utf8(blunder.sentence)}});
+  json["unchecked"] = Json::array();
+  for (const orient::Unchecked& item : summary.unchecked)
+    json["unchecked"].push_back({{"quantity", item.quantity},
+                                 {"rests_on", clean_utf8(item.subject)},
+                                 {"sentence", clean_utf8(item.sentence)}});
+}
+
 void add_observability(Json& json, const Product& product) {
   json["unobservable"] = Json::array();
   json["unobservable_explained"] = Json::object();
@@ -68,6 +85,7 @@ void add_observability(Json& json, const Product& product) {
     json["unobservable"].push_back(clean_utf8(item.name));
     json["unobservable_explained"][clean_utf8(item.name)] = clean_utf8(item.sentence);
   }
+  add_blunders(json, product.solution.summary);
   json["relative_only"] = texts(relative_only(product));
   std::vector<std::string> warnings = product.solution.summary.warnings;
   warnings.insert(warnings.end(), product.warnings.begin(), product.warnings.end());

@@ -142,7 +142,9 @@ TEST(PhotosCsv, HasAllPhotosWithBlanksForThoseNotOriented) {
   EXPECT_EQ(header_of(text),
             "photo,e_m,n_m,u_m,omega_deg,phi_deg,kappa_deg,sigma_e_m,sigma_n_m,sigma_u_m,"
             "sigma_omega_deg,sigma_phi_deg,sigma_kappa_deg,gnss_residual_e_m,gnss_residual_n_m,"
-            "gnss_residual_u_m");
+            "gnss_residual_u_m,gnss_redundancy_e,gnss_redundancy_n,gnss_redundancy_u,"
+            "gnss_detectable_e_m,gnss_detectable_n_m,gnss_detectable_u_m,gnss_directions,"
+            "gnss_statistic,gnss_critical,gnss_used");
   const Rows rows = parsed(text);
   ASSERT_EQ(rows.size(), 6u);
   EXPECT_NEAR(std::stod(rows[1].at("u_m")), 75.0, 1e-6);
@@ -155,7 +157,9 @@ TEST(PhotosCsv, HasAllPhotosWithBlanksForThoseNotOriented) {
 TEST(ObservationsCsv, ListsEveryObservationWithItsResidual) {
   const Product product = sample_product();
   const std::string text = observations_csv(product);
-  EXPECT_EQ(header_of(text), "photo,point,u_px,v_px,sigma_px,residual_u_px,residual_v_px,used");
+  EXPECT_EQ(header_of(text),
+            "photo,point,u_px,v_px,sigma_px,residual_u_px,residual_v_px,used,redundancy_u,"
+            "redundancy_v,w_u,w_v");
   const Rows rows = parsed(text);
   ASSERT_EQ(rows.size(), product.problem.observations.size());
   int unused = 0;
