@@ -220,15 +220,21 @@ double median_height(const State& state) {
   return *middle;
 }
 
+std::vector<double> azimuths_around(int count) {
+  std::vector<double> azimuths_rad;
+  for (int k = 0; k < count; ++k) azimuths_rad.push_back(2 * std::numbers::pi * k / count);
+  return azimuths_rad;
+}
+
+// The best of the azimuths given.
 State aligned_once(const Network& network, const State& free, const State& levered,
-                   const TermOptions& options) {
+                   const TermOptions& options, const std::vector<double>& azimuths_rad) {
   std::vector<Tie> ties = ties_of(network, free, levered, options);
   const Guess guess = guess_of(network, free, ties, options);
   const double crude_m = kCrudeShare * guess.scale * median_height(free);
   for (Tie& tie : ties) tie.sigma = (tie.sigma.array().square() + crude_m * crude_m).sqrt();
   Similarity best;
-  for (int trial = 0; trial < kAzimuthTrials; ++trial) {
-    const double azimuth_rad = 2 * std::numbers::pi * trial / kAzimuthTrials;
+  for (const double azimuth_rad : azimuths_rad) {
     Similarity candidate = fit(ties, azimuth_rad, guess);
     candidate.cost += heading_cost(network, free, azimuth_rad);
     if (candidate.cost < best.cost) best = candidate;
@@ -237,11 +243,25 @@ State aligned_once(const Network& network, const State& free, const State& lever
   return moved(free, best);
 }
 
+State aligned_at(const Network& network, const State& free, const TermOptions& options,
+                 const std::vector<double>& azimuths_rad) {
+  const State roughly = aligned_once(network, free, free, options, azimuths_rad);
+  return aligned_once(network, free, roughly, options, azimuths_rad);
+}
+
 }  // namespace
 
 State aligned(const Network& network, const State& free, const TermOptions& options) {
-  const State roughly = aligned_once(network, free, free, options);
-  return aligned_once(network, free, roughly, options);
+  return aligned_at(network, free, options, azimuths_around(kAzimuthTrials));
+}
+
+std::vector<State> aligned_all_around(const Network& network, const State& free,
+                                      const TermOptions& options, int count) {
+  std::vector<State> states;
+  for (const double azimuth_rad : azimuths_around(count)) {
+    states.push_back(aligned_at(network, free, options, {azimuth_rad}));
+  }
+  return states;
 }
 
 }  // namespace plumbline::orient

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <vector>
+
 #include "edge/orient/network.h"
 #include "edge/orient/terms.h"
 
@@ -12,5 +14,10 @@ namespace plumbline::orient {
 // a descent from the wrong side of the circle would stay there. A wrong station among good ones is
 // outweighed (Cauchy). What nothing fixes stays as it is.
 State aligned(const Network& network, const State& free, const TermOptions& options);
+
+// The same for `count` azimuths all around the circle, one network for each: for descents that
+// must not miss the right one.
+std::vector<State> aligned_all_around(const Network& network, const State& free,
+                                      const TermOptions& options, int count);
 
 }  // namespace plumbline::orient

@@ -12,18 +12,6 @@ namespace {
 constexpr double kFirstGuessTiesPx = 0.5;
 constexpr double kFirstGuessPicksPx = 1.0;
 
-double first_sigma(const Observation& o) {
-  switch (o.group) {
-    case ImageGroup::kTies:
-      return o.sigma_px * kFirstGuessTiesPx;
-    case ImageGroup::kPicks:
-      return o.sigma_px * kFirstGuessPicksPx;
-    case ImageGroup::kStated:
-      break;
-  }
-  return o.sigma_px;
-}
-
 // The velocity of the camera is taken as that of the antenna.
 Eigen::Vector3d centre_by_line_time(const Problem& problem, const Observation& o) {
   const auto& velocity = problem.photos[at(o.photo)].velocity_in_enu_m_s;
@@ -83,6 +71,18 @@ void group_points(Network& network) {
 }
 
 }  // namespace
+
+double first_sigma(const Observation& o) {
+  switch (o.group) {
+    case ImageGroup::kTies:
+      return o.sigma_px * kFirstGuessTiesPx;
+    case ImageGroup::kPicks:
+      return o.sigma_px * kFirstGuessPicksPx;
+    case ImageGroup::kStated:
+      break;
+  }
+  return o.sigma_px;
+}
 
 SharedVector shared_mask_of(const Problem& problem) {
   const geometry::Camera& camera = problem.camera;

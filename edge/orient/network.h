@@ -101,6 +101,9 @@ Network make_network(const Problem& problem, std::vector<int> photo_of_slot);
 // The mask of what a problem leaves free: whatever has a prior sigma.
 SharedVector shared_mask_of(const Problem& problem);
 
+// The sigma of an image observation before anything was learnt from residuals.
+double first_sigma(const Observation& observation);
+
 // Rays of a point that are still used.
 int used_rays(const Network& network, int point);
 

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "edge/orient/minimise.h"
+#include "edge/orient/network.h"
+#include "edge/orient/terms.h"
+
+namespace plumbline::orient {
+
+// A descent, and the aligned network that it set out from.
+struct Descent {
+  State start;
+  Minimum end;
+};
+
+// Lays a free network onto what is known and descends. From a crude network of few photos the side
+// of the circle that looks best need not be the right one; where the images or the stations
+// contradict what came out, the descent is repeated from azimuths all around, and the lowest wins.
+Descent descend_around_circle(const Network& network, const State& free, const TermOptions& terms,
+                              const MinimiseOptions& options);
+
+}  // namespace plumbline::orient
