@@ -8,6 +8,7 @@
 
 #include "edge/base/chi_square.h"
 #include "edge/orient/diagnosis.h"
+#include "edge/orient/stations.h"
 
 namespace plumbline::orient {
 namespace {
@@ -68,18 +69,15 @@ void reweigh_claims(const Network& network, const State& state, TermOptions& opt
   }
 }
 
-bool Doubts::reject_worst(const Network& network, bool whole_interior,
-                          const NetworkCovariance& covariance, const Terms& terms,
-                          TermOptions& options) {
-  return reject_worst(test_claims(network, options, terms, covariance), network, whole_interior,
-                      options);
+bool Doubts::reject_worst(const Network& network, const NetworkCovariance& covariance,
+                          const Terms& terms, TermOptions& options) {
+  return reject_worst(test_claims(network, options, terms, covariance), network, options);
 }
 
 bool Doubts::revise(const Network& network, const State& state, const State& start,
-                    bool whole_interior, const NetworkCovariance& covariance, const Terms& terms,
-                    TermOptions& options) {
+                    const NetworkCovariance& covariance, const Terms& terms, TermOptions& options) {
   const std::vector<ClaimTest> tests = test_claims(network, options, terms, covariance);
-  if (reject_worst(tests, network, whole_interior, options)) return true;
+  if (reject_worst(tests, network, options)) return true;
   return take_one_back(network, state, start, covariance, family_size(tests, options), options);
 }
 
@@ -88,16 +86,16 @@ bool Doubts::may_reject(const Claim& claim, const Network& network,
                         const TermOptions& options) const {
   if (claim.kind != ClaimKind::kStation) return true;
   const int believed = static_cast<int>(station_slots(network, options).size());
-  return believed >= 3 && 3 * (believed - 1) >= 2 * stations_given(network);
+  return believed >= kLeastStations && 3 * (believed - 1) >= 2 * stations_given(network);
 }
 
 bool Doubts::reject_worst(const std::vector<ClaimTest>& tests, const Network& network,
-                          bool whole_interior, TermOptions& options) {
+                          TermOptions& options) {
   std::optional<Claim> worst;
   double least = 0;
   for (const ClaimTest& test : tests) {
-    const bool tested = whole_interior || test.claim.kind != ClaimKind::kInterior ||
-                        test.claim.index == geometry::kFocalLength;
+    const bool tested =
+        test.claim.kind != ClaimKind::kInterior || test.claim.index == geometry::kFocalLength;
     if (!tested || !test.fails() || !may_reject(test.claim, network, options)) continue;
     const double log_share = chi_square_log_share_above(test.rows.statistic, test.rows.dof);
     if (worst && log_share >= least) continue;

@@ -20,18 +20,18 @@ void reweigh_claims(const Network& network, const State& state, TermOptions& opt
 class Doubts {
  public:
   // Rejects the worst claim that the rest contradicts. True where there was one: adjust again.
-  // `whole_interior`: whether all of the calibration is tested, not the focal length alone.
-  bool reject_worst(const Network& network, bool whole_interior,
-                    const NetworkCovariance& covariance, const Terms& terms, TermOptions& options);
+  // Of the calibration the focal length alone is tested.
+  bool reject_worst(const Network& network, const NetworkCovariance& covariance, const Terms& terms,
+                    TermOptions& options);
   // The same after a plain adjustment at `state`; where nothing is to be rejected, takes one back.
-  bool revise(const Network& network, const State& state, const State& start, bool whole_interior,
+  bool revise(const Network& network, const State& state, const State& start,
               const NetworkCovariance& covariance, const Terms& terms, TermOptions& options);
 
   const std::vector<Claim>& rejected() const { return rejected_; }
 
  private:
   bool reject_worst(const std::vector<ClaimTest>& tests, const Network& network,
-                    bool whole_interior, TermOptions& options);
+                    TermOptions& options);
   bool take_one_back(const Network& network, const State& state, const State& start,
                      const NetworkCovariance& covariance, int family, TermOptions& options);
   bool may_reject(const Claim& claim, const Network& network, const TermOptions& options) const;

@@ -11,6 +11,10 @@ constexpr double kStationCauchySigmas = 3;
 
 }  // namespace
 
+double station_weight_at(double sigmas) {
+  return 1 / (1 + std::pow(sigmas / kStationCauchySigmas, 2));
+}
+
 std::vector<double> robust_station_weights(const Network& network, const State& state) {
   std::vector<double> weights(at(network.slots()), 1.0);
   const GnssErrorModel& model = network.problem->gnss;
@@ -29,7 +33,7 @@ std::vector<double> robust_station_weights(const Network& network, const State& 
     Eigen::Matrix3d spread = station->covariance_m2 + 1e-8 * Eigen::Matrix3d::Identity();
     spread.diagonal() += common.cwiseAbs2();
     const double squared = miss.dot(spread.ldlt().solve(miss));
-    weights[at(slot)] = 1 / (1 + squared / (kStationCauchySigmas * kStationCauchySigmas));
+    weights[at(slot)] = station_weight_at(std::sqrt(squared));
   }
   return weights;
 }
