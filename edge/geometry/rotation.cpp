@@ -42,6 +42,15 @@ Eigen::Matrix3d rotation_by(const Eigen::Vector3d& delta_rad) {
   return AngleAxisd(angle, delta_rad / angle).toRotationMatrix();
 }
 
+Eigen::Matrix3d rotation_vector_by_increment(const Eigen::Vector3d& vector_rad) {
+  constexpr double kSmall = 1e-3;
+  const double angle = vector_rad.norm();
+  const Eigen::Matrix3d cross = cross_matrix(vector_rad);
+  const double second =
+      angle < kSmall ? 1.0 / 12 : 1 / (angle * angle) - 1 / (2 * angle * std::tan(angle / 2));
+  return Eigen::Matrix3d::Identity() - 0.5 * cross + second * cross * cross;
+}
+
 Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v) {
   Eigen::Matrix3d m;
   m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;

@@ -28,6 +28,10 @@ Eigen::Matrix3d angles_by_ground_increment(const OmegaPhiKappa& angles);
 // exp([delta]x): the rotation by |delta| radians about delta (Rodrigues).
 Eigen::Matrix3d rotation_by(const Eigen::Vector3d& delta_rad);
 
+// d(rotation vector) by delta of exp([delta]x) exp([vector]x): the inverse of the left Jacobian of
+// SO(3) (Barfoot 2017, State Estimation for Robotics, eq. 7.85). |vector| < 2 pi.
+Eigen::Matrix3d rotation_vector_by_increment(const Eigen::Vector3d& vector_rad);
+
 // [v]x, the matrix with cross_matrix(v) * w = v x w.
 Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& v);
 

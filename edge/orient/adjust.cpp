@@ -6,6 +6,7 @@
 
 #include "edge/base/units.h"
 #include "edge/orient/align.h"
+#include "edge/orient/azimuth_search.h"
 #include "edge/orient/doubts.h"
 #include "edge/orient/free_start.h"
 #include "edge/orient/group_fits.h"
@@ -16,6 +17,7 @@
 #include "edge/orient/stations.h"
 #include "edge/orient/step.h"
 #include "edge/orient/validate.h"
+#include "edge/orient/weak_directions.h"
 
 namespace plumbline::orient {
 namespace {
@@ -109,22 +111,31 @@ class Adjustment {
     terms_.datum = Datum::kKnown;
     terms_.bridle_interior = false;
     terms_.station_weights.assign(at(network_.slots()), 1.0);
-    state_ = aligned(network_, state_, terms_);
     network_.shared_mask = shared_mask_of(problem_);
     state_.line_time_s = problem_.camera.line_time_us * kSecondsPerMicrosecond;
     state_.delay_s = problem_.delay.seconds;
-    datum_ = state_;
-    soften_claims(network_, state_, terms_);
+    soften_claims(network_, aligned(network_, state_, terms_), terms_);
+    descend_from_best_azimuth();
     for (const double scale : kSharp) {
       minimise_from(datum_, {scale, options_.max_iterations, kRobustTolerance});
       rescale_by_median(network_, state_);
-      terms_.station_weights = robust_station_weights(network_, state_);
+      if (station_slots(network_, terms_).size() >= kLeastStations) {
+        terms_.station_weights = robust_station_weights(network_, state_);
+      }
       reweigh_claims(network_, state_, terms_);
     }
     minimise_from(datum_, {kSharp[1], options_.max_iterations, kRobustTolerance});
     terms_.station_weights.clear();
     terms_.length_weights.clear();
     terms_.control_weights.clear();
+  }
+
+  void descend_from_best_azimuth() {
+    Descent descent = descend_around_circle(network_, state_, terms_,
+                                            {kSharp[0], options_.max_iterations, kRobustTolerance});
+    datum_ = std::move(descent.start);
+    state_ = std::move(descent.end.state);
+    iterations_ += descent.end.iterations;
   }
 
   // Plain least squares without what was found to be wrong, so that the covariance is honest.
@@ -147,7 +158,7 @@ class Adjustment {
             "The photos and positions given do not determine a solution: too few points "
             "are seen in two photos or more, or all of them lie in one place."};
       }
-      doubted = doubts_.revise(network_, state_, datum_, !has_ties(), *covariance, terms, terms_);
+      doubted = doubts_.revise(network_, state_, datum_, *covariance, terms, terms_);
       if (doubted) {
         --round;
         continue;
@@ -159,7 +170,11 @@ class Adjustment {
       if (!settled && !last) continue;
       if (widen(fits)) continue;
       if (tolerance == kFinalTolerance) {
-        return solution_of({network_, state_, terms_, *covariance, fits, terms, datum_,
+        const NetworkCovariance bars =
+            options_.bent_error_bars
+                ? bent_covariance(network_, state_, datum_, terms_, *covariance)
+                : *covariance;
+        return solution_of({network_, state_, terms_, *covariance, bars, fits, terms, datum_,
                             doubts_.rejected(), iterations_, converged_},
                            options_);
       }
@@ -179,7 +194,7 @@ class Adjustment {
       const auto step = solve(equations, 0);
       if (!covariance || !step) return;
       for (Term& term : terms) term.residual += term.jacobian * step->common(term.columns);
-      found = doubts_.reject_worst(network_, !has_ties(), *covariance, terms, terms_);
+      found = doubts_.reject_worst(network_, *covariance, terms, terms_);
     }
   }
 

@@ -13,6 +13,9 @@ struct Options {
   double tilt_sigma_deg = 2.0;
   int max_iterations = 200;
   double rejection_sigma = 3.7;
+  // Error bars follow the arcs along which azimuth, level and the like are poorly known; false: the
+  // straight ones of the linearised adjustment.
+  bool bent_error_bars = true;
   // Thresholds beyond which a quantity is called unobservable.
   double max_azimuth_sigma_deg = 5.0;
   double max_tilt_sigma_deg = 5.0;

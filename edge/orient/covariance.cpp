@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "edge/orient/step.h"
@@ -90,6 +91,32 @@ std::optional<NetworkCovariance> NetworkCovariance::of(const Network& network,
     if (kept_index >= 0) out.points_[at(p)] = kept(network.layout.kept_point(kept_index));
   }
   return out;
+}
+
+// Each place along an arc is a variable z of its own, of variance 1: the columns move by step z,
+// and a point by what the columns make of that and by the rest of its arc.
+void NetworkCovariance::bend(double weight, const Step& step) {
+  const Eigen::Index columns = step.common.size(), extra = common_.cols();
+  common_.topLeftCorner(columns, columns) += weight * step.common * step.common.transpose();
+  if (weight < 0) return;
+  common_.conservativeResizeLike(Eigen::MatrixXd::Zero(extra + 1, extra + 1));
+  const double root = std::sqrt(weight);
+  common_.col(extra).head(columns) = root * step.common;
+  common_.row(extra).head(columns) = root * step.common.transpose();
+  common_(extra, extra) = 1;
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    PointFactor& factor = points_[p];
+    if (!factor.measured) continue;
+    Eigen::Vector3d rest = step.points[p];
+    for (std::size_t k = 0; k < factor.columns.size(); ++k) {
+      const int column = factor.columns[k];
+      if (column < columns)
+        rest -= factor.by_common.col(static_cast<Eigen::Index>(k)) * step.common[column];
+    }
+    factor.columns.push_back(static_cast<int>(extra));
+    factor.by_common.conservativeResize(Eigen::NoChange, factor.by_common.cols() + 1);
+    factor.by_common.rightCols<1>() = root * rest;
+  }
 }
 
 Eigen::MatrixXd NetworkCovariance::common_block(const std::vector<int>& rows,

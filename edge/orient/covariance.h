@@ -8,6 +8,7 @@
 #include "edge/orient/network.h"
 #include "edge/orient/normal_equations.h"
 #include "edge/orient/solution.h"
+#include "edge/orient/step.h"
 
 namespace plumbline::orient {
 
@@ -33,7 +34,8 @@ class NetworkCovariance final : public PointCovariances {
   static std::optional<NetworkCovariance> of(const Network& network,
                                              const NormalEquations& equations);
 
-  const Eigen::MatrixXd& common() const { return common_; }  // columns x columns
+  // columns x columns; a bent one has more, of the places that bent it.
+  const Eigen::MatrixXd& common() const { return common_; }
   const PointFactor& point(int index) const { return points_[static_cast<std::size_t>(index)]; }
   int points() const { return static_cast<int>(points_.size()); }
 
@@ -47,6 +49,10 @@ class NetworkCovariance final : public PointCovariances {
   // Covariance of the computed pixel of a ray; `spread` is that of its point.
   Eigen::Matrix2d pixel_covariance(const Network& network, const Ray& ray, const RayLinear& linear,
                                    const PointSpread& spread) const;
+
+  // Adds weight * step step'; where the points' part of `step` is not what the common part makes of
+  // it, the weight must be positive.
+  void bend(double weight, const Step& step);
 
  private:
   std::vector<int> by_group() const;

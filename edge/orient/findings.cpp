@@ -187,9 +187,22 @@ void add_unchecked(const Finished& f, const LocalFrameFit& frame, Solution& solu
   }
 }
 
+// What is contradicted and yet stands, since too few others stand against it.
+void add_contradictions(const std::vector<ClaimTest>& believed, const Finished& f,
+                        Solution& solution) {
+  const bool contradicted = std::any_of(believed.begin(), believed.end(), [](const ClaimTest& t) {
+    return t.claim.kind == ClaimKind::kStation && t.fails();
+  });
+  if (!contradicted) return;
+  solution.summary.warnings.push_back(
+      "The GNSS positions of the " + std::to_string(station_slots(f.network, f.terms).size()) +
+      " photos contradict each other or the photos, and are too few to tell which is wrong: check "
+      "them, or fly again with more photos.");
+}
+
 }  // namespace
 
-void add_findings(const Finished& f, const LocalFrameFit& frame, Solution& solution) {
+void add_findings(const Finished& f, Solution& solution) {
   const auto believed = test_claims(f.network, f.terms, f.linear, f.covariance);
   const int family = family_size(believed, f.terms);
   std::vector<ClaimTest> rejected;
@@ -203,7 +216,9 @@ void add_findings(const Finished& f, const LocalFrameFit& frame, Solution& solut
   }
   check_stations(believed, f, solution);
   check_stations(rejected, f, solution);
+  const auto frame = fit_local_frame(f.state, f.covariance, f.covariance.point_covariances());
   add_unchecked(f, frame, solution);
+  add_contradictions(believed, f, solution);
 }
 
 }  // namespace plumbline::orient

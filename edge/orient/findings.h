@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "edge/orient/local_frame_fit.h"
 #include "edge/orient/solution.h"
 #include "edge/orient/solution_of.h"
 
@@ -9,6 +8,6 @@ namespace plumbline::orient {
 
 // Says in the summary, and of each station in its photo, what was found to be wrong and what
 // nothing checks. Needs the residuals of `solution` and its oriented photos.
-void add_findings(const Finished& finished, const LocalFrameFit& frame, Solution& solution);
+void add_findings(const Finished& finished, Solution& solution);
 
 }  // namespace plumbline::orient

@@ -50,8 +50,7 @@ Matrix3x7 similarity_design(const Eigen::Vector3d& from_centroid) {
 
 }  // namespace
 
-LocalFrameFit fit_local_frame(const Network& network, const State& state,
-                              const NetworkCovariance& covariance,
+LocalFrameFit fit_local_frame(const State& state, const NetworkCovariance& covariance,
                               const std::vector<Eigen::Matrix3d>& point_covariances,
                               const std::vector<int>& candidates) {
   LocalFrameFit fit;
@@ -62,7 +61,7 @@ LocalFrameFit fit_local_frame(const Network& network, const State& state,
   Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
   for (const int p : chosen) centroid += state.points[at(p)] / static_cast<double>(chosen.size());
   Matrix7 normal = Matrix7::Zero();
-  Eigen::MatrixXd summed = Eigen::MatrixXd::Zero(7, network.layout.columns());
+  Eigen::MatrixXd summed = Eigen::MatrixXd::Zero(7, covariance.common().cols());
   Matrix7 own_sum = Matrix7::Zero();
   for (const int p : chosen) {
     const Matrix3x7 g = similarity_design(state.points[at(p)] - centroid);

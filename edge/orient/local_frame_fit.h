@@ -23,8 +23,7 @@ struct LocalFrameFit {
 // Points whose own height is far worse than the others' (at the foot of a climb) do not help to
 // define the frame. With fewer than three good points the local covariance is the whole one.
 // `candidates`: the frame is fitted to none but these points; empty: to any.
-LocalFrameFit fit_local_frame(const Network& network, const State& state,
-                              const NetworkCovariance& covariance,
+LocalFrameFit fit_local_frame(const State& state, const NetworkCovariance& covariance,
                               const std::vector<Eigen::Matrix3d>& point_covariances,
                               const std::vector<int>& candidates = {});
 

@@ -18,7 +18,7 @@ geometry::Camera adjusted_camera(const Finished& f) {
   geometry::Camera camera = f.network.problem->camera;
   camera.interior = f.state.interior;
   const geometry::InteriorMatrix covariance =
-      f.covariance.common().topLeftCorner<geometry::kInteriorCount, geometry::kInteriorCount>();
+      f.bars.common().topLeftCorner<geometry::kInteriorCount, geometry::kInteriorCount>();
   camera.sigma = covariance.diagonal().cwiseMax(0).cwiseSqrt();
   camera.covariance = covariance;
   return camera;
@@ -29,7 +29,7 @@ OrientedPhoto oriented(const Finished& f, int slot) {
   photo.oriented = true;
   photo.pose = f.state.poses[at(slot)];
   const int column = f.network.layout.photo(slot);
-  photo.covariance = f.covariance.common().block<6, 6>(column, column);
+  photo.covariance = f.bars.common().block<6, 6>(column, column);
   const auto angles = geometry::angles_of(photo.pose.ground_from_photo);
   const Eigen::Matrix3d by_increment = geometry::angles_by_ground_increment(angles);
   photo.sigma_omega_phi_kappa_rad =
@@ -53,7 +53,7 @@ void fill_points(const Finished& f, const std::vector<Eigen::Matrix3d>& covarian
   solution.points.resize(at(f.network.points()));
   for (int p = 0; p < f.network.points(); ++p) {
     MeasuredPoint& point = solution.points[at(p)];
-    point.measured = f.covariance.point(p).measured;
+    point.measured = f.bars.point(p).measured;
     if (!point.measured) continue;
     point.in_enu_m = f.state.points[at(p)];
     point.covariance_m2 = covariances[at(p)];
@@ -131,8 +131,8 @@ Solution solution_of(const Finished& f, const Options& options) {
     solution.photos[at(f.network.photo_of_slot[at(slot)])] = oriented(f, slot);
   }
   solution.residuals = observation_residuals(f);
-  const std::vector<Eigen::Matrix3d> covariances = f.covariance.point_covariances();
-  const LocalFrameFit frame = fit_local_frame(f.network, f.state, f.covariance, covariances);
+  const std::vector<Eigen::Matrix3d> covariances = f.bars.point_covariances();
+  const LocalFrameFit frame = fit_local_frame(f.state, f.bars, covariances);
   fill_points(f, covariances, frame, solution);
 
   Summary& summary = solution.summary;
@@ -142,16 +142,16 @@ Solution solution_of(const Finished& f, const Options& options) {
   summarise_fits(f, summary);
   summary.image_design_effect = f.network.ties_design_effect;
   summary.flying_height_m = flying_height(f.network, f.state);
-  const Evidence evidence{f.network, f.state, f.terms, f.covariance, frame};
+  const Evidence evidence{f.network, f.state, f.terms, f.bars, frame};
   summary.common = common_sigmas(evidence, summary.flying_height_m);
   summary.unobservable = unobservable(evidence, summary.common, options);
   warn_of_left_out(f, solution, summary);
-  add_findings(f, frame, solution);
+  add_findings(f, solution);
   warn_of_correlation(summary);
   for (std::string& sentence : cautions(evidence, summary.common)) {
     summary.warnings.push_back(std::move(sentence));
   }
-  solution.covariances = std::make_shared<NetworkCovariance>(f.covariance);
+  solution.covariances = std::make_shared<NetworkCovariance>(f.bars);
   return solution;
 }
 

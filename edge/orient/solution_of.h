@@ -14,7 +14,8 @@ struct Finished {
   const Network& network;
   const State& state;
   const TermOptions& terms;
-  const NetworkCovariance& covariance;
+  const NetworkCovariance& covariance;  // straight: of the linearised adjustment, for its tests
+  const NetworkCovariance& bars;        // what is stated of the unknowns
   const GroupFits& fits;
   const Terms& linear;  // the terms at `state`
   const State& start;   // what the datum holds on to

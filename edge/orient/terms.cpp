@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "edge/orient/terms.h"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
@@ -122,18 +123,34 @@ void add_angle(const Network& network, const State& state, int slot, int angle, 
   terms.push_back(std::move(term));
 }
 
-// A stated attitude where there is one; else the mount keeps the photo near the vertical.
+// The mount keeps the photo near the vertical, as a stabilised gimbal does: in the photo frame the
+// ground's zenith R' z lies near +z. Its x and y, for small tilts their angles, do not depend on
+// the azimuth; omega and phi do, and would count as knowledge of it. R' exp(-[d]x) z = R' z +
+// R' [z]x d.
+void add_level(const Network& network, const State& state, int slot, double sigma_rad,
+               std::vector<Term>& terms) {
+  const Eigen::Matrix3d photo_from_ground = state.poses[at(slot)].ground_from_photo.transpose();
+  const Eigen::Vector3d zenith = Eigen::Vector3d::UnitZ();
+  Term term{"attitude", range(network.layout.photo(slot) + 3, 3), {}, {}, {}};
+  term.residual = (photo_from_ground * zenith).head<2>();
+  term.jacobian = (photo_from_ground * geometry::cross_matrix(zenith)).topRows<2>();
+  term.information = Eigen::Matrix2d::Identity() / (sigma_rad * sigma_rad);
+  terms.push_back(std::move(term));
+}
+
+// A stated attitude where there is one; else the mount's.
 void add_attitude(const Network& network, const State& state, int slot, const TermOptions& options,
                   std::vector<Term>& terms) {
   const auto& prior = network.photo(slot).attitude;
+  if (!prior || !prior->sigma_rad.head<2>().array().isFinite().any()) {
+    add_level(network, state, slot, options.tilt_sigma_rad, terms);
+  }
+  if (!prior) return;
   for (int angle = 0; angle < 3; ++angle) {
-    const bool stated = prior && std::isfinite(prior->sigma_rad[angle]);
-    if (stated && (angle < 2 || options.datum == Datum::kKnown)) {
-      add_angle(network, state, slot, angle, prior->omega_phi_kappa_rad[angle],
-                prior->sigma_rad[angle], terms);
-    } else if (angle < 2) {
-      add_angle(network, state, slot, angle, 0, options.tilt_sigma_rad, terms);
-    }
+    if (!std::isfinite(prior->sigma_rad[angle])) continue;
+    if (angle == 2 && options.datum == Datum::kFree) continue;
+    add_angle(network, state, slot, angle, prior->omega_phi_kappa_rad[angle],
+              prior->sigma_rad[angle], terms);
   }
 }
 
@@ -175,7 +192,39 @@ void add_control(const Network& network, const State& state, const TermOptions& 
   }
 }
 
+void add_pin(const Network& network, const State& state, const Pin& pin, std::vector<Term>& terms) {
+  const Eigen::VectorXd reached = pin_displacement(network, pin.from, state);
+  Term term = scalar_term("datum", range(0, network.layout.columns()),
+                          pin.gradient.dot(reached) - pin.value, pin.sigma);
+  term.jacobian = pin.gradient.transpose();
+  for (int slot = 0; slot < network.slots(); ++slot) {
+    const int column = network.layout.photo(slot) + 3;
+    term.jacobian.middleCols<3>(column) *=
+        geometry::rotation_vector_by_increment(reached.segment<3>(column));
+  }
+  terms.push_back(std::move(term));
+}
+
 }  // namespace
+
+Eigen::VectorXd pin_displacement(const Network& network, const State& from, const State& to) {
+  const Layout& layout = network.layout;
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(layout.columns());
+  out.head<kInteriorCount>() = to.interior - from.interior;
+  out[kLineTime] = to.line_time_s - from.line_time_s;
+  out[kDelay] = to.delay_s - from.delay_s;
+  for (int slot = 0; slot < layout.slots; ++slot) {
+    const geometry::Pose &a = from.poses[at(slot)], &b = to.poses[at(slot)];
+    const Eigen::AngleAxisd turn(b.ground_from_photo * a.ground_from_photo.transpose());
+    out.segment<3>(layout.photo(slot)) = b.centre_m - a.centre_m;
+    out.segment<3>(layout.photo(slot) + 3) = turn.angle() * turn.axis();
+  }
+  for (std::size_t k = 0; k < layout.kept.size(); ++k) {
+    const std::size_t point = at(layout.kept[k]);
+    out.segment<3>(layout.kept_point(static_cast<int>(k))) = to.points[point] - from.points[point];
+  }
+  return out;
+}
 
 double weight_of(const std::vector<double>& weights, int index) {
   return weights.empty() ? 1 : weights[at(index)];
@@ -252,6 +301,7 @@ std::vector<Term> linearised_terms(const Network& network, const State& state, c
     add_control(network, state, options, terms);
   }
   add_datum_terms(network, state, start, options, terms);
+  if (options.pin) add_pin(network, state, *options.pin, terms);
   return terms;
 }
 

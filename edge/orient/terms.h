@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,14 @@ enum class Datum {
   kKnown,  // everything that is known
 };
 
+// Holds one linear combination of the reduced columns at a distance from a place: a probe.
+struct Pin {
+  Eigen::VectorXd gradient;  // by column
+  State from;
+  double value = 0;
+  double sigma = 0;
+};
+
 struct TermOptions {
   Datum datum = Datum::kKnown;
   double tilt_sigma_rad = 0;
@@ -38,6 +47,7 @@ struct TermOptions {
   std::vector<double> control_weights;
   // Parameters of the interior whose calibration is not believed: they are free.
   std::array<bool, geometry::kInteriorCount> interior_freed{};
+  std::optional<Pin> pin;
 };
 
 // 1 where `weights` is empty.
@@ -56,6 +66,10 @@ DatumDefect datum_defect(const Network& network, const TermOptions& options);
 
 std::vector<Term> linearised_terms(const Network& network, const State& state, const State& start,
                                    const TermOptions& options);
+
+// How one place of the network lies from another, by column of the reduced system: differences,
+// rotations as rotation vectors.
+Eigen::VectorXd pin_displacement(const Network& network, const State& from, const State& to);
 
 // Sum of residual' information residual.
 double cost_of(const std::vector<Term>& terms);

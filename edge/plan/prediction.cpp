@@ -99,7 +99,7 @@ class Reader {
         adjusted_(adjusted),
         ring_frame_(model.truth, covariance(), points(true)),
         absolute_(covariance().point_covariances()) {
-    frame_ = fit_local_frame(adjusted.network, model.truth, covariance(), absolute_, points(false));
+    frame_ = fit_local_frame(model.truth, covariance(), absolute_, points(false));
     undo_weights();
   }
 

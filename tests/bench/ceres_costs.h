@@ -48,12 +48,9 @@ struct PhotoPrior {
     for (int i = 0; i < 3; ++i) residual[i] = (photo[3 + i] - station[i]) / station_sigma_m;
     T photo_from_ground[9];  // column major: the rows of its transpose
     ceres::AngleAxisToRotationMatrix(photo, photo_from_ground);
-    // R = photo_from_ground' = Rx(omega) Ry(phi) Rz(kappa): its last column.
-    const T& r02 = photo_from_ground[2];
-    const T& r12 = photo_from_ground[5];
-    const T& r22 = photo_from_ground[8];
-    residual[3] = ceres::atan2(-r12, r22) / tilt_sigma_rad;
-    residual[4] = ceres::asin(r02) / tilt_sigma_rad;
+    // The zenith in the photo frame: its last column.
+    residual[3] = photo_from_ground[6] / tilt_sigma_rad;
+    residual[4] = photo_from_ground[7] / tilt_sigma_rad;
     return true;
   }
   Eigen::Vector3d station;

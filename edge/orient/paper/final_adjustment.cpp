@@ -147,6 +147,7 @@ Result<FinalAdjustment> adjust_all(const FramedCase& framed, const Adjusted& sta
                                      minimum.state,
                                      terms,
                                      *covariance,
+                                     *covariance,
                                      fits,
                                      linear,
                                      datum,

@@ -66,5 +66,23 @@ TEST(Rotation, ByAVectorIsTheExponentialOfItsCrossMatrix) {
   EXPECT_TRUE((k * Eigen::Vector3d(1, 2, 3)).isApprox(v.cross(Eigen::Vector3d(1, 2, 3))));
 }
 
+TEST(Rotation, VectorsChangeByIncrementsAsTheirDerivativeSays) {
+  const auto vector_of = [](const Eigen::Matrix3d& rotation) -> Eigen::Vector3d {
+    const Eigen::AngleAxisd turn(rotation);
+    return turn.angle() * turn.axis();
+  };
+  for (const double size : {1e-5, 0.01, 0.6, 2.5}) {
+    const Eigen::Vector3d vector = size * Eigen::Vector3d(0.6, -0.48, 0.64);
+    const Eigen::Matrix3d derivative = rotation_vector_by_increment(vector);
+    for (int axis = 0; axis < 3; ++axis) {
+      constexpr double kStep = 1e-6;
+      const Eigen::Vector3d step = kStep * Eigen::Vector3d::Unit(axis);
+      const Eigen::Vector3d difference = vector_of(rotation_by(step) * rotation_by(vector)) -
+                                         vector_of(rotation_by(-step) * rotation_by(vector));
+      EXPECT_LT((difference / (2 * kStep) - derivative.col(axis)).norm(), 1e-7) << size;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::geometry

@@ -149,7 +149,7 @@ TEST(LocalFrame, SplitsTheCovarianceAsTheDenseTransformationDoes) {
   for (const auto& c : covariances) traces.push_back(c.trace());
   std::sort(traces.begin(), traces.end());
   ASSERT_LT(traces.back(), 8 * traces[traces.size() / 2]) << "all points should define the frame";
-  const LocalFrameFit fit = fit_local_frame(small.network, small.state, both.factored, covariances);
+  const LocalFrameFit fit = fit_local_frame(small.state, both.factored, covariances);
   const Eigen::MatrixXd g = similarity_design(small.state, points);
   const Eigen::MatrixXd fitted = (g.transpose() * g).inverse() * g.transpose();
   const Eigen::MatrixXd joint = both.dense_joint(points);

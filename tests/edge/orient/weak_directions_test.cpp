@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "edge/orient/weak_directions.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "edge/orient/adjust.h"
+#include "edge/orient/term_parts.h"
+#include "tests/edge/orient/made_flight.h"
+#include "tests/edge/orient/small_network.h"
+
+namespace plumbline::orient {
+namespace {
+
+using testing::FlightPlan;
+using testing::make_flight;
+
+Solution solved(const FlightPlan& plan, bool bent) {
+  Options options;
+  options.bent_error_bars = bent;
+  auto solution = adjust(make_flight(plan, 21).problem, options);
+  EXPECT_TRUE(solution) << solution.error().sentence;
+  return solution ? *std::move(solution) : Solution{};
+}
+
+TEST(BentCovariance, IsTheStraightOneWhereAllIsKnownWell) {
+  FlightPlan plan;
+  plan.heights_m = {30, 45, 60, 75, 90};
+  plan.side_step_m = plan.l_step_m = 20;
+  plan.image_sigma_px = 0.1;
+  plan.targets = 200;
+  const Solution bent = solved(plan, true), straight = solved(plan, false);
+  for (std::size_t p = 0; p < bent.points.size(); ++p) {
+    if (!bent.points[p].measured) continue;
+    const Eigen::Matrix3d& expected = straight.points[p].covariance_m2;
+    EXPECT_LT((bent.points[p].covariance_m2 - expected).norm(), 0.01 * expected.norm()) << p;
+  }
+}
+
+// Two stations almost above each other: their offset of 0.7 m, known to 5 mm, against tilts known
+// to 2 degrees, which are 0.7 m over the climb of 20 m. The azimuth is anyone's guess.
+TEST(BentCovariance, SaysThatTheAzimuthIsAnyonesGuess) {
+  FlightPlan plan;
+  plan.heights_m = {70, 90};
+  plan.side_step_m = 0;
+  plan.tilt_sigma_deg = 2;
+  EXPECT_GT(solved(plan, true).summary.common.azimuth_rad, 0.5);
+}
+
+TEST(BentCovariance, LeavesTheEstimateWhereItIs) {
+  FlightPlan plan;
+  plan.side_step_m = 0;
+  const Solution bent = solved(plan, true), straight = solved(plan, false);
+  for (std::size_t p = 0; p < bent.points.size(); ++p) {
+    EXPECT_EQ(bent.points[p].in_enu_m, straight.points[p].in_enu_m);
+  }
+}
+
+// A place is added as a variable of its own: the joint covariance of points is what its definition
+// says.
+TEST(NetworkCovariance, GrowsByTheSquareOfWhatBendsIt) {
+  testing::SmallNetwork small(5);
+  const auto terms = linearised_terms(small.network, small.state, small.datum, small.options);
+  auto covariance =
+      NetworkCovariance::of(small.network, normal_equations(small.network, small.state, 0, terms));
+  ASSERT_TRUE(covariance);
+  Step step{Eigen::VectorXd::Zero(small.network.layout.columns()), {}};
+  step.points.assign(at(small.network.points()), Eigen::Vector3d::Zero());
+  std::vector<int> free_points;
+  for (int p = 0; p < small.network.points(); ++p) {
+    if (small.network.layout.kept_of_point[at(p)] >= 0 || !covariance->point(p).measured) continue;
+    free_points.push_back(p);
+    step.points[at(p)] = Eigen::Vector3d(0.1, -0.2, 0.05 * p);
+  }
+  step.common.segment<3>(small.network.layout.photo(1)).setConstant(0.03);
+  const Eigen::MatrixXd before = covariance->joint(free_points);
+  covariance->bend(0.25, step);
+  Eigen::VectorXd moved(static_cast<Eigen::Index>(3 * free_points.size()));
+  for (std::size_t k = 0; k < free_points.size(); ++k) {
+    moved.segment<3>(static_cast<Eigen::Index>(3 * k)) = step.points[at(free_points[k])];
+  }
+  const Eigen::MatrixXd expected = before + 0.25 * moved * moved.transpose();
+  EXPECT_LT((covariance->joint(free_points) - expected).norm(), 1e-9 * expected.norm());
+  EXPECT_LT(
+      (covariance->point_covariances()[at(free_points[0])] - expected.topLeftCorner<3, 3>()).norm(),
+      1e-9 * expected.norm());
+}
+
+}  // namespace
+}  // namespace plumbline::orient
