@@ -52,6 +52,9 @@ int run_measure(MeasureArguments arguments) {
   if (!survey) return fail(survey.error());
   const auto known = std::move(inputs->check);
   deliver::Product product = product_of(arguments, std::move(*inputs), std::move(*survey));
+  if (auto status = add_derived_figures(arguments.derived, product); !status) {
+    return fail(status.error());
+  }
   if (!known.empty()) {
     auto check = survey::check(product.problem, product.solution, known);
     if (!check) return fail(check.error());
@@ -108,6 +111,7 @@ void add_measure(CLI::App& app, int& status) {
   sub->add_option("--threads", a->threads, "0: as many as the machine has")
       ->check(CLI::Range(0, 256));
   sub->add_flag("--json", a->json, "print summary.json instead of the table");
+  add_derived_options(*sub, a->derived);
   add_adjustment_options(*sub, a->options.adjustment);
   sub->footer(
       "Example: plumbline measure photos/ --out result/\n"

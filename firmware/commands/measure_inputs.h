@@ -12,6 +12,7 @@
 #include "edge/geodesy/local_frame.h"
 #include "edge/survey/check_points.h"
 #include "edge/survey/survey.h"
+#include "firmware/commands/derived_figures.h"
 
 namespace plumbline::commands {
 
@@ -28,6 +29,7 @@ struct MeasureArguments {
   std::string datum = "that of the base";
   int threads = 0;  // 0: as many as the machine has
   bool json = false;
+  DerivedArguments derived;
   survey::Options options;
 };
 

@@ -12,6 +12,7 @@
 #include "edge/survey/check_points.h"
 #include "edge/survey/survey.h"
 #include "firmware/commands/adjustment_options.h"
+#include "firmware/commands/derived_figures.h"
 #include "firmware/commands/geo_inputs.h"
 #include "firmware/commands/run_report.h"
 #include "firmware/ingest/case_folder.h"
@@ -27,6 +28,7 @@ struct OrientArguments {
   bool json = false;
   bool paper = false;
   orient::paper::Priors priors;
+  DerivedArguments derived;
   orient::Options adjustment;
 };
 
@@ -106,6 +108,9 @@ int run_orient(const OrientArguments& arguments) {
   if (!oriented) return fail(oriented.error());
   const auto known = input->check;
   deliver::Product product = product_of(std::move(*input), *std::move(oriented), arguments);
+  if (auto status = add_derived_figures(arguments.derived, product); !status) {
+    return fail(status.error());
+  }
   if (!known.empty()) {
     auto check = survey::check(product.problem, product.solution, known);
     if (!check) return fail(check.error());
@@ -136,6 +141,7 @@ void add_orient(CLI::App& app, int& status) {
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
   sub->add_flag("--json", arguments->json, "print summary.json instead of the table");
+  add_derived_options(*sub, arguments->derived);
   add_adjustment_options(*sub, arguments->adjustment);
   sub->footer(
       "Example: plumbline orient my_case --out my_case/result\n"

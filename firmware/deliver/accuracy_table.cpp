@@ -94,6 +94,21 @@ std::string check_lines(const survey::CheckReport& check) {
   return text;
 }
 
+std::string derived_lines(const std::vector<DerivedFigure>& figures) {
+  std::string text;
+  for (const DerivedFigure& figure : figures) {
+    std::string label = figure.kind;
+    for (const std::string& point : figure.points) label += ' ' + clean_utf8(point);
+    if (figure.level_m) label += " above " + fixed(*figure.level_m, 3) + " m";
+    text += "  " + padded(label, 40, false);
+    text += figure.value
+                ? padded(fixed_or(figure.value->value, 4, "unknown"), 12, true) + " " +
+                      figure.unit + ", sigma " + fixed_or(figure.value->sigma, 4, "unknown") + "\n"
+                : "     unknown: nothing in the input gives the scale\n";
+  }
+  return text;
+}
+
 std::vector<std::string> unobservable_sentences(const Product& product) {
   std::vector<std::string> sentences;
   for (const orient::Unobservable& item : product.solution.summary.unobservable)
@@ -114,6 +129,7 @@ std::string accuracy_table(const Product& product) {
     text += check_lines(*product.check);
     text += listed("At the check points", check_sentences(*product.check));
   }
+  text += derived_lines(product.derived);
   text += listed("Not observable", unobservable_sentences(product));
   text += listed("Relative only", relative_only(product));
   text += listed("Warnings", all_warnings(product));

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "edge/orient/adjust.h"
+#include "edge/orient/derived.h"
 #include "edge/orient/paper/procedure.h"
 #include "edge/orient/problem.h"
 #include "edge/orient/solution.h"
@@ -24,6 +25,15 @@ struct GeoOrigin {
   double height_ellipsoidal_m = 0;
 };
 
+// A distance, an area or a volume that was asked for.
+struct DerivedFigure {
+  std::string kind;  // distance, area, volume
+  std::vector<std::string> points;
+  std::optional<double> level_m;         // of a volume
+  std::optional<orient::Derived> value;  // empty: nothing gives the scale
+  std::string unit;                      // m, m2, m3
+};
+
 // All that is delivered, whichever command made it.
 struct Product {
   std::string title;  // what was measured, for the report: a folder's name
@@ -32,6 +42,7 @@ struct Product {
   orient::Options options;  // as adjusted with: the thresholds are printed
   survey::Counts counts;
   std::optional<survey::CheckReport> check;
+  std::vector<DerivedFigure> derived;
   std::optional<orient::paper::Procedure> paper;  // the published procedure, where that was asked
   std::optional<GeoOrigin> origin;                // empty: local frame only
   std::string datum = "that of the base";

@@ -101,7 +101,12 @@ void add_common_sigmas(Json& json, const Product& product) {
                            {"position_m", number(common.position_m)},
                            {"focal_length", number(common.focal_length)},
                            {"height", number(common.height)}};
+  const orient::Summary& summary = product.solution.summary;
+  json["delay_s"] = summary.delay ? number(summary.delay->seconds) : Json(nullptr);
+  json["sigma_delay_s"] = summary.delay ? number(summary.delay->sigma_s) : Json(nullptr);
   const geometry::Camera& camera = product.solution.camera;
+  json["line_time_us"] = number(camera.line_time_us);
+  json["sigma_line_time_us"] = number(camera.line_time_sigma_us);
   json["focal_length_px"] = number(camera.interior[geometry::kFocalLength]);
   json["sigma_focal_length_px"] =
       camera.covariance
@@ -181,6 +186,18 @@ Json check_object(const survey::CheckReport& check) {
   return json;
 }
 
+Json derived_list(const std::vector<DerivedFigure>& figures) {
+  Json list = Json::array();
+  for (const DerivedFigure& figure : figures) {
+    Json json = {{"kind", figure.kind}, {"points", texts(figure.points)}, {"unit", figure.unit}};
+    if (figure.level_m) json["level_m"] = number(*figure.level_m);
+    json["value"] = figure.value ? number(figure.value->value) : Json(nullptr);
+    json["sigma"] = figure.value ? number(figure.value->sigma) : Json(nullptr);
+    list.push_back(json);
+  }
+  return list;
+}
+
 }  // namespace
 
 std::string summary_json(const Product& product) {
@@ -190,6 +207,7 @@ std::string summary_json(const Product& product) {
   add_common_sigmas(json, product);
   add_point_figures(json, product);
   if (product.check) json["check"] = check_object(*product.check);
+  if (!product.derived.empty()) json["derived"] = derived_list(product.derived);
   if (product.paper) add_paper_stages(json, product);
   add_thresholds(json, product.options);
   add_frame(json, product);

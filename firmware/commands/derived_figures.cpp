@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "firmware/commands/derived_figures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+
+#include "edge/orient/derived.h"
+
+namespace plumbline::commands {
+namespace {
+
+std::vector<std::string> split(const std::string& text) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == ',') {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+// Indices of the points by their names.
+Result<std::vector<int>> points_of(const std::vector<std::string>& names, const std::string& option,
+                                   const deliver::Product& product) {
+  const auto& known = product.problem.point_names;
+  std::vector<int> points;
+  for (const std::string& name : names) {
+    const auto found = std::find(known.begin(), known.end(), name);
+    const auto index = static_cast<std::size_t>(found - known.begin());
+    if (found == known.end() || !product.solution.points[index].measured) {
+      return Error{option + ": the point \"" + name +
+                   "\" was not measured; name points of points.csv."};
+    }
+    points.push_back(static_cast<int>(index));
+  }
+  return points;
+}
+
+using Compute = Result<orient::Derived> (*)(const orient::Solution&, const std::vector<int>&,
+                                            double level_m);
+
+struct Kind {
+  const char* name;
+  const char* unit;
+  std::size_t least_points, most_points;
+  Compute compute;
+};
+
+constexpr Kind kDistance = {"distance", "m", 2, 2,
+                            [](const orient::Solution& s, const std::vector<int>& p, double) {
+                              return orient::distance(s, p[0], p[1]);
+                            }};
+constexpr Kind kArea = {"area", "m2", 3, SIZE_MAX,
+                        [](const orient::Solution& s, const std::vector<int>& p, double) {
+                          return orient::area(s, p);
+                        }};
+constexpr Kind kVolume = {"volume", "m3", 3, SIZE_MAX,
+                          [](const orient::Solution& s, const std::vector<int>& p, double level) {
+                            return orient::volume(s, p, level);
+                          }};
+
+// The level behind the @ of a volume, taken off `text`.
+std::optional<double> take_level(std::string& text) {
+  const std::size_t mark = text.rfind('@');
+  if (mark == std::string::npos) return std::nullopt;
+  char* end = nullptr;
+  const double level = std::strtod(text.c_str() + mark + 1, &end);
+  if (*end != '\0' || end == text.c_str() + mark + 1 || !std::isfinite(level)) return std::nullopt;
+  text.resize(mark);
+  return level;
+}
+
+Status add_figure(const Kind& kind, std::string text, deliver::Product& product) {
+  const std::string option = std::string("--") + kind.name + " " + text;
+  deliver::DerivedFigure figure{kind.name, {}, std::nullopt, std::nullopt, kind.unit};
+  if (kind.name == kVolume.name) {
+    figure.level_m = take_level(text);
+    if (!figure.level_m)
+      return Error{option + ": the level is missing; write A,B,C,...@LEVEL in metres."};
+  }
+  figure.points = split(text);
+  if (figure.points.size() < kind.least_points || figure.points.size() > kind.most_points) {
+    return Error{option + ": " + (kind.most_points == 2 ? "two points" : "three points or more") +
+                 " are wanted, with commas between them."};
+  }
+  const auto points = points_of(figure.points, option, product);
+  if (!points) return points.error();
+  const auto value = kind.compute(product.solution, *points, figure.level_m.value_or(0));
+  if (!value) return Error{option + ": " + value.error().sentence};
+  if (std::isfinite(product.solution.summary.common.scale)) figure.value = *value;
+  product.derived.push_back(std::move(figure));
+  return Done{};
+}
+
+}  // namespace
+
+void add_derived_options(CLI::App& sub, DerivedArguments& arguments) {
+  const auto add = [&sub](const char* name, std::vector<std::string>& values, const char* what) {
+    sub.add_option(name, values, what)->take_all()->allow_extra_args(false);
+  };
+  add("--distance", arguments.distances, "between two measured points, with its sigma: A,B");
+  add("--area", arguments.areas, "of a polygon of measured points, seen from above: A,B,C,...");
+  add("--volume", arguments.volumes,
+      "between the surface over a polygon of measured points and a level, metres: A,B,C,...@LEVEL");
+}
+
+Status add_derived_figures(const DerivedArguments& arguments, deliver::Product& product) {
+  const std::pair<const Kind&, const std::vector<std::string>&> wanted[] = {
+      {kDistance, arguments.distances}, {kArea, arguments.areas}, {kVolume, arguments.volumes}};
+  for (const auto& [kind, texts] : wanted) {
+    for (const std::string& text : texts) {
+      if (auto status = add_figure(kind, text, product); !status) return status;
+    }
+  }
+  return Done{};
+}
+
+}  // namespace plumbline::commands
