@@ -140,6 +140,27 @@ void judge_position(const Evidence& e, const CommonSigmas& s, const Options& opt
   }
 }
 
+// A prior that alone carries it: the photos and positions say nothing of it.
+void judge_times(const Evidence& e, const Options& options, std::vector<Unobservable>& out) {
+  const auto sigma = [&](SharedColumn column) {
+    return std::sqrt(std::max(0.0, e.covariance.common()(column, column)));
+  };
+  const double delay_prior = e.network.problem->delay.sigma_s;
+  if (e.network.shared_mask[kDelay] != 0 && rests_on_prior(sigma(kDelay), delay_prior, options)) {
+    out.push_back({"delay", text("The delay between camera and GNSS rests on what was given "
+                                 "(%.2g s): at one velocity it shifts all positions alike. Photos "
+                                 "at different speeds, some at rest, or control points fix it.",
+                                 delay_prior)});
+  }
+  const double line_prior = e.network.problem->camera.line_time_sigma_us * kSecondsPerMicrosecond;
+  if (e.network.shared_mask[kLineTime] != 0 &&
+      rests_on_prior(sigma(kLineTime), line_prior, options)) {
+    out.push_back({"line_time", text("The line time of the rolling shutter rests on what was given "
+                                     "(%.2g us). Photos at different speeds would show it.",
+                                     line_prior / kSecondsPerMicrosecond)});
+  }
+}
+
 void judge_height(const CommonSigmas& s, const Options& options, std::vector<Unobservable>& out) {
   if (s.height <= options.max_height_sigma) return;
   out.push_back({"height", text("Heights of the points are known only to %.2g %% of the flying "
@@ -188,6 +209,7 @@ std::vector<Unobservable> unobservable(const Evidence& evidence, const CommonSig
   judge_scale(sigmas, options, out);
   judge_height(sigmas, options, out);
   judge_position(evidence, sigmas, options, out);
+  judge_times(evidence, options, out);
   return out;
 }
 

@@ -97,6 +97,12 @@ struct CommonSigmas {
   double height = 0;        // median sigma of point heights over the flying height
 };
 
+// A quantity of time, where it was adjusted or given.
+struct TimeEstimate {
+  double seconds = 0;
+  double sigma_s = 0;
+};
+
 struct Summary {
   bool converged = false;
   int iterations = 0;
@@ -110,6 +116,8 @@ struct Summary {
   double reprojection_rms_px = 0;
   double flying_height_m = 0;  // median height of the stations above the median ground
   CommonSigmas common;
+  std::optional<TimeEstimate> delay;      // of the exposures behind the stations' clock
+  std::optional<TimeEstimate> line_time;  // of the rolling shutter, per row
   std::vector<Unobservable> unobservable;
   std::vector<Blunder> blunders;
   std::vector<Unchecked> unchecked;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "edge/base/units.h"
 #include "edge/geometry/rotation.h"
 #include "edge/orient/findings.h"
 #include "edge/orient/observation_residuals.h"
@@ -21,7 +22,17 @@ geometry::Camera adjusted_camera(const Finished& f) {
       f.bars.common().topLeftCorner<geometry::kInteriorCount, geometry::kInteriorCount>();
   camera.sigma = covariance.diagonal().cwiseMax(0).cwiseSqrt();
   camera.covariance = covariance;
+  if (f.network.shared_mask[kLineTime] != 0) {
+    camera.line_time_us = f.state.line_time_s / kSecondsPerMicrosecond;
+    camera.line_time_sigma_us =
+        std::sqrt(f.bars.common()(kLineTime, kLineTime)) / kSecondsPerMicrosecond;
+  }
   return camera;
+}
+
+std::optional<TimeEstimate> time_estimate(const Finished& f, SharedColumn column, double seconds) {
+  if (f.network.shared_mask[column] == 0) return std::nullopt;
+  return TimeEstimate{seconds, std::sqrt(std::max(0.0, f.bars.common()(column, column)))};
 }
 
 OrientedPhoto oriented(const Finished& f, int slot) {
@@ -144,6 +155,8 @@ Solution solution_of(const Finished& f, const Options& options) {
   summary.flying_height_m = flying_height(f.network, f.state);
   const Evidence evidence{f.network, f.state, f.terms, f.bars, frame};
   summary.common = common_sigmas(evidence, summary.flying_height_m);
+  summary.delay = time_estimate(f, kDelay, f.state.delay_s);
+  summary.line_time = time_estimate(f, kLineTime, f.state.line_time_s);
   summary.unobservable = unobservable(evidence, summary.common, options);
   warn_of_left_out(f, solution, summary);
   add_findings(f, solution);

@@ -131,7 +131,7 @@ class GnssTomlReader {
  public:
   explicit GnssTomlReader(const std::string& name) : name_(name) {}
 
-  Result<orient::GnssErrorModel> read(const toml::table& file, std::vector<std::string>& notices) {
+  Result<CaseGnss> read(const toml::table& file, std::vector<std::string>& notices) {
     for (const auto& [key, node] : file) {
       if (!read_key(key.str(), node)) {
         notices.push_back(at_line(name_, node.source().begin.line) + in_quotes(key.str()) +
@@ -142,7 +142,7 @@ class GnssTomlReader {
     if (has_correlated_sigma_ && model_.correlation_s == 0) {
       return Error{name_ + ": correlated_sigma_m needs correlation_s greater than 0."};
     }
-    return model_;
+    return CaseGnss{model_, delay_};
   }
 
  private:
@@ -155,6 +155,10 @@ class GnssTomlReader {
       has_correlated_sigma_ = true;
     } else if (key == "correlation_s") {
       model_.correlation_s = number(&node, key);
+    } else if (key == "delay_s") {
+      delay_.seconds = any_number(node, key);
+    } else if (key == "delay_sigma_s") {
+      delay_.sigma_s = number(&node, key);
     } else {
       return false;
     }
@@ -168,6 +172,17 @@ class GnssTomlReader {
     if (!error_ && node) {
       error_ = Error{at_line(name_, node->source().begin.line) + std::string(key) +
                      " must be a finite number of 0 or more."};
+    }
+    return 0;
+  }
+
+  double any_number(const toml::node& node, std::string_view key) {
+    constexpr double kMostSeconds = 3600;
+    const double value = node.is_number() ? node.value_or(kMostSeconds + 1) : kMostSeconds + 1;
+    if (std::abs(value) <= kMostSeconds) return value;
+    if (!error_) {
+      error_ = Error{at_line(name_, node.source().begin.line) + std::string(key) +
+                     " must be a number of seconds, less than an hour."};
     }
     return 0;
   }
@@ -186,14 +201,15 @@ class GnssTomlReader {
 
   std::string name_;
   orient::GnssErrorModel model_;
+  orient::Delay delay_;
   bool has_correlated_sigma_ = false;
   std::optional<Error> error_;
 };
 
 }  // namespace
 
-Result<orient::GnssErrorModel> case_gnss(const std::string& text, const std::string& name,
-                                         std::vector<std::string>& notices) {
+Result<CaseGnss> case_gnss(const std::string& text, const std::string& name,
+                           std::vector<std::string>& notices) {
   try {
     return GnssTomlReader(name).read(toml::parse(text, name), notices);
   } catch (const toml::parse_error& error) {

@@ -25,7 +25,14 @@ Result<PointNumbers> case_observations(const CsvTable& table, orient::Problem& p
 Result<orient::FrameRoles> case_frame_roles(const CsvTable& table, const PointNumbers& points,
                                             std::vector<std::string>& notices);
 Result<orient::LeverArm> case_lever_arm(const CsvTable& table, std::vector<std::string>& notices);
-Result<orient::GnssErrorModel> case_gnss(const std::string& text, const std::string& name,
-                                         std::vector<std::string>& notices);
+
+// gnss.toml: offset_sigma_m = [h, v], correlation_s, correlated_sigma_m = [h, v]; delay_s and
+// delay_sigma_s, by which the exposures came after the time of their positions.
+struct CaseGnss {
+  orient::GnssErrorModel errors;
+  orient::Delay delay;
+};
+Result<CaseGnss> case_gnss(const std::string& text, const std::string& name,
+                           std::vector<std::string>& notices);
 
 }  // namespace plumbline::ingest

@@ -200,10 +200,17 @@ class CaseReader {
     if (!has("gnss.toml")) return Done{};
     const Result<std::string> text = text_of("gnss.toml");
     if (!text) return text.error();
-    const Result<orient::GnssErrorModel> model = case_gnss(*text, "gnss.toml", result_.warnings);
-    if (!model) return model.error();
-    result_.problem.gnss = *model;
-    if (model->correlation_s == 0) return Done{};
+    const Result<CaseGnss> gnss = case_gnss(*text, "gnss.toml", result_.warnings);
+    if (!gnss) return gnss.error();
+    result_.problem.gnss = gnss->errors;
+    result_.problem.delay = gnss->delay;
+    const bool delayed = gnss->delay.seconds != 0 || gnss->delay.sigma_s > 0;
+    for (const orient::Photo& photo : result_.problem.photos) {
+      if (!delayed || !photo.station || photo.velocity_in_enu_m_s) continue;
+      return Error{"gnss.toml gives a delay, but photo " + in_quotes(photo.name) +
+                   " has no ve_m_s, vn_m_s, vu_m_s in photos.csv; write 0 where it stood still."};
+    }
+    if (gnss->errors.correlation_s == 0) return Done{};
     for (const orient::Photo& photo : result_.problem.photos) {
       if (!photo.station || photo.time_s) continue;
       return Error{"gnss.toml gives correlation_s, but photo " + in_quotes(photo.name) +

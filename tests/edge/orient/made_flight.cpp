@@ -97,6 +97,10 @@ class Maker {
       photo.heading =
           HeadingPrior{-kappa + compass_rad + own_heading(kOwnHeadingShare * sigma_rad), sigma_rad};
     }
+    if (!plan_.speeds_m_s.empty()) {
+      photo.velocity_in_enu_m_s = velocity(i);
+      photo.station->antenna_in_enu_m -= plan_.delay_s * velocity(i);
+    }
     photo.time_s = plan_.photo_interval_s * static_cast<double>(i);
     flight_.problem.photos.push_back(photo);
   }
@@ -121,6 +125,24 @@ class Maker {
     if (horizontal == 0 && vertical == 0) return Eigen::Vector3d::Zero();
     const double e = normal(horizontal), n = normal(horizontal), u = normal(vertical);
     return {e, n, u};
+  }
+
+  Eigen::Vector3d velocity(std::size_t photo) const {
+    if (plan_.speeds_m_s.empty()) return Eigen::Vector3d::Zero();
+    return {0, 0, plan_.speeds_m_s[photo % plan_.speeds_m_s.size()]};
+  }
+
+  // Where a pixel of row v is seen from: the pose is that of the middle row.
+  std::optional<Eigen::Vector2d> rolled(std::size_t photo, const Eigen::Vector3d& point) const {
+    geometry::Pose pose = flight_.poses[photo];
+    auto pixel = pixel_in(pose, point);
+    constexpr int kRounds = 5;
+    for (int round = 0; pixel && plan_.line_time_s != 0 && round < kRounds; ++round) {
+      pose.centre_m = flight_.poses[photo].centre_m +
+                      plan_.line_time_s * (pixel->y() - (2250 - 1) / 2.0) * velocity(photo);
+      pixel = pixel_in(pose, point);
+    }
+    return pixel;
   }
 
   // Targets over 40 m by 56 m, as in the paper's test field.
@@ -188,7 +210,7 @@ class Maker {
   void observe() {
     for (std::size_t i = 0; i < flight_.poses.size(); ++i) {
       for (std::size_t p = 0; p < flight_.points.size(); ++p) {
-        const auto pixel = pixel_in(flight_.poses[i], flight_.points[p]);
+        const auto pixel = rolled(i, flight_.points[p]);
         if (!pixel) continue;
         Eigen::Vector2d noise(normal(plan_.image_sigma_px), normal(plan_.image_sigma_px));
         const bool wrong = uniform(0, 1) < plan_.gross_share;

@@ -30,6 +30,10 @@ struct FlightPlan {
   bool free_camera = false;      // and all ten interior parameters as weakly known as it
   GnssErrorModel gnss;           // offset and correlated part, drawn as modelled
   double photo_interval_s = 2.5;
+  // The climb's speeds by turns, first while it climbs; empty: none is given, nothing moves.
+  std::vector<double> speeds_m_s;
+  double delay_s = 0;      // of the exposures behind the stations
+  double line_time_s = 0;  // of the rolling shutter, per row
   ImageGroup group = ImageGroup::kStated;
 };
 
