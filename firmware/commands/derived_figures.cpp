@@ -32,8 +32,9 @@ Result<std::vector<int>> points_of(const std::vector<std::string>& names, const 
     const auto found = std::find(known.begin(), known.end(), name);
     const auto index = static_cast<std::size_t>(found - known.begin());
     if (found == known.end() || !product.solution.points[index].measured) {
-      return Error{option + ": the point \"" + name +
-                   "\" was not measured; name points of points.csv."};
+      std::string sentence = option;
+      sentence.append(": the point \"").append(name);
+      return Error{sentence.append("\" was not measured; name points of points.csv.")};
     }
     points.push_back(static_cast<int>(index));
   }
