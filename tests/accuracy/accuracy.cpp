@@ -4,8 +4,8 @@
 #include <cstdio>
 
 #include "tests/accuracy/conditions.h"
+#include "tests/accuracy/lies.h"
 #include "tests/accuracy/tally.h"
-#include "tests/edge/orient/lies.h"
 
 namespace plumbline::accuracy {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/edge/orient/lies.h"
+#include "tests/accuracy/lies.h"
 
 #include <Eigen/Cholesky>
 #include <algorithm>
