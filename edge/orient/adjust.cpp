@@ -7,6 +7,7 @@
 #include "edge/base/units.h"
 #include "edge/orient/align.h"
 #include "edge/orient/azimuth_search.h"
+#include "edge/orient/bent_covariance.h"
 #include "edge/orient/doubts.h"
 #include "edge/orient/free_start.h"
 #include "edge/orient/group_fits.h"
@@ -17,7 +18,6 @@
 #include "edge/orient/stations.h"
 #include "edge/orient/step.h"
 #include "edge/orient/validate.h"
-#include "edge/orient/weak_directions.h"
 
 namespace plumbline::orient {
 namespace {
@@ -147,7 +147,7 @@ class Adjustment {
     for (int round = 0;; ++round) {
       // While a wrong claim pulls, rays are not judged.
       int changed = doubted ? 0 : reject_rays(network_, state_, options_.rejection_sigma);
-      changed += drop_far_points();
+      changed += drop_far_points() + drop_points_at_cameras(network_, state_);
       minimise_from(datum_, {0, options_.max_iterations, tolerance});
       const RaysLinear rays = linearise_rays(network_, state_, 0);
       const auto terms = linearised_terms(network_, state_, datum_, terms_);
@@ -187,6 +187,7 @@ class Adjustment {
   void reject_gross_claims() {
     reject_rays(network_, state_, options_.rejection_sigma);
     drop_far_points();
+    drop_points_at_cameras(network_, state_);
     for (bool found = true; found;) {
       auto terms = linearised_terms(network_, state_, datum_, terms_);
       const auto equations = normal_equations(network_, state_, 0, terms);

@@ -24,6 +24,7 @@ struct Options {
   double max_height_sigma = 0.05;  // of the flying height
   double max_position_sigma_m = 10.0;
   double min_variance_reduction = 0.20;  // of a prior that alone carries a quantity
+  double min_correlation = 0.90;         // of two quantities that are said to go together
 };
 
 // One robust adjustment of everything known, each with its sigma. Needs no starting values.

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "edge/geometry/rotation.h"
+#include "edge/orient/rays.h"
 
 namespace plumbline::orient {
 namespace {
@@ -262,6 +263,27 @@ std::vector<State> aligned_all_around(const Network& network, const State& free,
     states.push_back(aligned_at(network, free, options, {azimuth_rad}));
   }
   return states;
+}
+
+State levelled(const Network& network, const State& aligned, const TermOptions& options) {
+  State level = aligned;
+  for (int slot = 0; slot < network.slots(); ++slot) {
+    geometry::Pose& pose = level.poses[at(slot)];
+    geometry::OmegaPhiKappa angles{0, 0, geometry::angles_of(pose.ground_from_photo).kappa_rad};
+    if (const auto& attitude = network.photo(slot).attitude) {
+      const Eigen::Vector3d& given = attitude->omega_phi_kappa_rad;
+      if (std::isfinite(attitude->sigma_rad[0])) angles.omega_rad = given[0];
+      if (std::isfinite(attitude->sigma_rad[1])) angles.phi_rad = given[1];
+    }
+    pose.ground_from_photo = geometry::ground_from_photo(angles);
+  }
+  for (const int slot : station_slots(network, options)) {
+    geometry::Pose& pose = level.poses[at(slot)];
+    pose.centre_m = network.photo(slot).station->antenna_in_enu_m -
+                    pose.ground_from_photo * network.problem->lever_arm.in_photo_m;
+  }
+  replant_points(network, level);
+  return level;
 }
 
 }  // namespace plumbline::orient

@@ -20,6 +20,10 @@ constexpr double kContradictionSigmas = 5;
 constexpr double kCostRatio = 3;
 constexpr double kMostSquares = 1e10;
 constexpr int kAzimuthsTried = 8;
+// Photos so few may have been oriented to each other wrongly without any contradiction.
+constexpr int kFewPhotos = 3;
+// A cost beyond its expectation by so many of its standard deviations is a doubt.
+constexpr double kDoubtSigmas = 3;
 
 Descent descend(const Network& network, State start, const TermOptions& terms,
                 const MinimiseOptions& options) {
@@ -52,19 +56,41 @@ bool rays_contradict(const Network& network, const State& state, double cauchy_s
   return cost > kCostRatio * expected;
 }
 
+// A doubt is less than a contradiction: what images of stated sigma and all priors cost together is
+// more than their number of degrees of freedom makes likely.
+bool doubtful(const Network& network, const Descent& descent) {
+  double dof = 0;
+  int points = 0, rays = 0;
+  for (int p = 0; p < network.points(); ++p) {
+    points += used_rays(network, p) > 0 ? 1 : 0;
+    rays += used_rays(network, p);
+  }
+  dof = 2 * rays - 3 * points - 3 * network.slots();
+  return dof > 0 && descent.end.cost > dof + kDoubtSigmas * std::sqrt(2 * dof);
+}
+
+void keep_lower(Descent&& other, int& iterations, Descent& best) {
+  iterations += other.end.iterations;
+  if (other.end.cost < best.end.cost) best = std::move(other);
+}
+
 }  // namespace
 
 Descent descend_around_circle(const Network& network, const State& free, const TermOptions& terms,
                               const MinimiseOptions& options) {
   Descent best = descend(network, aligned(network, free, terms), terms, options);
   int iterations = best.end.iterations;
-  if (stations_contradict(network, best.end.state, terms) ||
-      rays_contradict(network, best.end.state, options.cauchy_scale)) {
-    for (State& start : aligned_all_around(network, free, terms, kAzimuthsTried)) {
-      Descent other = descend(network, std::move(start), terms, options);
-      iterations += other.end.iterations;
-      if (other.end.cost < best.end.cost) best = std::move(other);
-    }
+  const auto in_doubt = [&] {
+    return doubtful(network, best) || stations_contradict(network, best.end.state, terms) ||
+           rays_contradict(network, best.end.state, options.cauchy_scale);
+  };
+  if (network.slots() <= kFewPhotos || in_doubt()) {
+    keep_lower(descend(network, levelled(network, best.start, terms), terms, options), iterations,
+               best);
+  }
+  if (in_doubt()) {
+    for (State& start : aligned_all_around(network, free, terms, kAzimuthsTried))
+      keep_lower(descend(network, std::move(start), terms, options), iterations, best);
   }
   best.end.iterations = iterations;
   return best;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "edge/geometry/rotation.h"
 #include "edge/orient/step.h"
 
 namespace plumbline::orient {
@@ -52,6 +53,19 @@ Eigen::MatrixXd part_of(const Eigen::MatrixXd& whole, const std::vector<int>& co
     for (Eigen::Index i = 0; i < size; ++i) to[i] = column[columns[static_cast<std::size_t>(i)]];
   }
   return part;
+}
+
+// The covariance of w x u, both of mean zero and independent, to their covariances `turn` and
+// `own`.
+Eigen::Matrix3d turned(const Eigen::Matrix3d& own, const Eigen::Matrix3d& turn) {
+  Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      sum += turn(i, j) * geometry::cross_matrix(Eigen::Vector3d::Unit(i)) * own *
+             geometry::cross_matrix(Eigen::Vector3d::Unit(j)).transpose();
+    }
+  }
+  return sum;
 }
 
 std::vector<int> groups_of_points(const Network& network) {
@@ -116,6 +130,21 @@ void NetworkCovariance::bend(double weight, const Step& step) {
     factor.columns.push_back(static_cast<int>(extra));
     factor.by_common.conservativeResize(Eigen::NoChange, factor.by_common.cols() + 1);
     factor.by_common.rightCols<1>() = root * rest;
+  }
+}
+
+void NetworkCovariance::turn_own_parts(const Network& network) {
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    if (!points_[p].measured) continue;
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Zero();
+    int rays = 0;
+    for (int k = network.first_ray[p]; k < network.first_ray[p + 1]; ++k) {
+      if (!network.rays[at(k)].used) continue;
+      const int rotation = network.layout.photo(network.rays[at(k)].slot) + 3;
+      turn += common_.block<3, 3>(rotation, rotation);
+      ++rays;
+    }
+    if (rays > 0) points_[p].own += turned(points_[p].own, turn / rays);
   }
 }
 

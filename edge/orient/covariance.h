@@ -54,6 +54,11 @@ class NetworkCovariance final : public PointCovariances {
   // it, the weight must be positive.
   void bend(double weight, const Step& step);
 
+  // Lets the own part of each point turn with the photos that see it: a point that is known worst
+  // along its rays is so along another line where the rays are turned by what they may be. Adds
+  // the second moment of the product, E[(w x u)(w x u)'] of a turn w and an own error u.
+  void turn_own_parts(const Network& network);
+
  private:
   std::vector<int> by_group() const;
   Eigen::MatrixXd common_block(const std::vector<int>& rows, const std::vector<int>& cols) const;

@@ -7,10 +7,13 @@
 #include <limits>
 #include <optional>
 
+#include "edge/orient/diagnosis.h"
+
 namespace plumbline::orient {
 namespace {
 
 constexpr double kWildHeight = 0.4;  // of the flying height, above or below the ground
+constexpr double kAtCamera = 0.05;   // of the flying height
 
 // Where a ray meets the horizontal plane z = height.
 std::optional<Eigen::Vector3d> on_plane(const Ray& ray, const State& state, double height) {
@@ -44,6 +47,36 @@ void couple(Network& network, int point, bool measured) {
   if (place == kept.end()) return;
   const bool held = measured || holds_with_one_ray(network, point);
   network.layout.kept_of_point[at(point)] = held ? static_cast<int>(place - kept.begin()) : -1;
+}
+
+void drop_for_good(Network& network, int point) {
+  network.undetermined[at(point)] = true;
+  for (int k = network.first_ray[at(point)]; k < network.first_ray[at(point) + 1]; ++k)
+    network.rays[at(k)].used = false;
+}
+
+// Points further above or below the ground than a share of the flying height.
+void replant_points_beyond(double share, const Network& network, State& state) {
+  std::vector<double> heights, stations;
+  for (int p = 0; p < network.points(); ++p) {
+    if (used_rays(network, p) > 0) heights.push_back(state.points[at(p)].z());
+  }
+  for (const geometry::Pose& pose : state.poses) stations.push_back(pose.centre_m.z());
+  if (heights.empty() || stations.empty()) return;
+  const double ground = upper_median(heights);
+  const double limit = share * std::abs(upper_median(stations) - ground);
+  for (int p = 0; p < network.points(); ++p) {
+    Eigen::Vector3d& point = state.points[at(p)];
+    if (std::abs(point.z() - ground) <= limit) continue;
+    std::vector<double> east, north;
+    for (int k = network.first_ray[at(p)]; k < network.first_ray[at(p) + 1]; ++k) {
+      if (const auto foot = on_plane(network.rays[at(k)], state, ground)) {
+        east.push_back(foot->x());
+        north.push_back(foot->y());
+      }
+    }
+    if (!east.empty()) point = {upper_median(east), upper_median(north), ground};
+  }
 }
 
 }  // namespace
@@ -81,26 +114,27 @@ int reject_rays(Network& network, const State& state, double sigmas) {
 }
 
 void replant_wild_points(const Network& network, State& state) {
-  std::vector<double> heights, stations;
+  replant_points_beyond(kWildHeight, network, state);
+}
+
+void replant_points(const Network& network, State& state) {
+  replant_points_beyond(0, network, state);
+}
+
+int drop_points_at_cameras(Network& network, const State& state) {
+  const double nearest = kAtCamera * std::abs(flying_height(network, state));
+  int dropped = 0;
   for (int p = 0; p < network.points(); ++p) {
-    if (used_rays(network, p) > 0) heights.push_back(state.points[at(p)].z());
+    const auto begin = network.rays.begin() + network.first_ray[at(p)];
+    const auto end = network.rays.begin() + network.first_ray[at(p) + 1];
+    const bool at_one = std::any_of(begin, end, [&](const Ray& ray) {
+      return ray.used && (state.points[at(p)] - state.centre_of(ray)).norm() < nearest;
+    });
+    if (!at_one || network.layout.kept_of_point[at(p)] >= 0) continue;
+    drop_for_good(network, p);
+    ++dropped;
   }
-  for (const geometry::Pose& pose : state.poses) stations.push_back(pose.centre_m.z());
-  if (heights.empty() || stations.empty()) return;
-  const double ground = upper_median(heights);
-  const double limit = kWildHeight * std::abs(upper_median(stations) - ground);
-  for (int p = 0; p < network.points(); ++p) {
-    Eigen::Vector3d& point = state.points[at(p)];
-    if (std::abs(point.z() - ground) <= limit) continue;
-    std::vector<double> east, north;
-    for (int k = network.first_ray[at(p)]; k < network.first_ray[at(p) + 1]; ++k) {
-      if (const auto foot = on_plane(network.rays[at(k)], state, ground)) {
-        east.push_back(foot->x());
-        north.push_back(foot->y());
-      }
-    }
-    if (!east.empty()) point = {upper_median(east), upper_median(north), ground};
-  }
+  return dropped;
 }
 
 int drop_undetermined(Network& network, const NormalEquations& equations, double limit_m) {
@@ -112,10 +146,7 @@ int drop_undetermined(Network& network, const NormalEquations& equations, double
       const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> modes(normal_of(points, lane),
                                                                  Eigen::EigenvaluesOnly);
       if (modes.eigenvalues()[0] * limit_m * limit_m > 1) continue;
-      network.undetermined[at(p)] = true;
-      for (int k = network.first_ray[at(p)]; k < network.first_ray[at(p) + 1]; ++k) {
-        network.rays[at(k)].used = false;
-      }
+      drop_for_good(network, p);
       ++dropped;
     }
   }

@@ -22,10 +22,18 @@ int reject_rays(Network& network, const State& state, double sigmas);
 // how many.
 int drop_undetermined(Network& network, const NormalEquations& equations, double limit_m);
 
+// Drops for good the points that have come to lie at a camera that sees them, nearer than a share
+// of the flying height: there every ray of that camera fits, and no step leads away. Returns how
+// many.
+int drop_points_at_cameras(Network& network, const State& state);
+
 // Before a stage: a point that mismatches have thrown far above or below the ground goes back to
 // the median of its rays' intersections with the ground plane; left near its cameras it would
 // block every step.
 void replant_wild_points(const Network& network, State& state);
+
+// The same for every point, where photos were put somewhere else.
+void replant_points(const Network& network, State& state);
 
 // Before a stage: sets aside rays that cannot be projected at all.
 void drop_unprojectable(Network& network, const State& state);

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "edge/geometry/camera.h"
@@ -87,6 +88,19 @@ struct Unchecked {
   std::string sentence;
 };
 
+// Two quantities that the data do not tell apart (see correlations.h for their names).
+struct Correlation {
+  std::string a, b;
+  double value = 0;  // -1 to 1
+};
+
+// A combination of camera and photos that is known worse than others, by the angle that it moves
+// the images by, and the quantities it goes with, each with its correlation.
+struct WeakCombination {
+  double sigma_rad = 0;
+  std::vector<std::pair<std::string, double>> goes_with;
+};
+
 // Standard deviations of what is common to the whole. Infinity: not fixed by anything.
 struct CommonSigmas {
   double azimuth_rad = 0;
@@ -119,6 +133,8 @@ struct Summary {
   std::optional<TimeEstimate> delay;      // of the exposures behind the stations' clock
   std::optional<TimeEstimate> line_time;  // of the rolling shutter, per row
   std::vector<Unobservable> unobservable;
+  std::vector<Correlation> correlations;  // the strong ones
+  std::vector<WeakCombination> weakest;   // the worst known first
   std::vector<Blunder> blunders;
   std::vector<Unchecked> unchecked;
   std::vector<std::string> warnings;  // sentences; those of blunders and unchecked among them

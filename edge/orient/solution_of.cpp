@@ -7,6 +7,7 @@
 
 #include "edge/base/units.h"
 #include "edge/geometry/rotation.h"
+#include "edge/orient/correlations.h"
 #include "edge/orient/findings.h"
 #include "edge/orient/observation_residuals.h"
 
@@ -158,6 +159,8 @@ Solution solution_of(const Finished& f, const Options& options) {
   summary.delay = time_estimate(f, kDelay, f.state.delay_s);
   summary.line_time = time_estimate(f, kLineTime, f.state.line_time_s);
   summary.unobservable = unobservable(evidence, summary.common, options);
+  summary.correlations = correlations(evidence, options.min_correlation);
+  summary.weakest = weakest_combinations(evidence);
   warn_of_left_out(f, solution, summary);
   add_findings(f, solution);
   warn_of_correlation(summary);

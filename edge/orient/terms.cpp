@@ -301,7 +301,7 @@ std::vector<Term> linearised_terms(const Network& network, const State& state, c
     add_control(network, state, options, terms);
   }
   add_datum_terms(network, state, start, options, terms);
-  if (options.pin) add_pin(network, state, *options.pin, terms);
+  for (const Pin& pin : options.pins) add_pin(network, state, pin, terms);
   return terms;
 }
 

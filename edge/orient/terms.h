@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,7 +46,7 @@ struct TermOptions {
   std::vector<double> control_weights;
   // Parameters of the interior whose calibration is not believed: they are free.
   std::array<bool, geometry::kInteriorCount> interior_freed{};
-  std::optional<Pin> pin;
+  std::vector<Pin> pins;
 };
 
 // 1 where `weights` is empty.

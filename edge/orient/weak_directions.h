@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "edge/orient/covariance.h"
+#include <Eigen/Core>
+#include <vector>
+
 #include "edge/orient/network.h"
-#include "edge/orient/terms.h"
 
 namespace plumbline::orient {
 
-// An error bar is straight, and a climb that knows its azimuth or its level to a degree is not:
-// points turn along arcs, and what images allow for is no parabola. The directions in which the
-// photos are known worst are followed to both sides, everything else adjusted to each place, and
-// the covariance along them is replaced by the second moments, about the estimate, of what was
-// found there, weighted by its likelihood (Gauss-Hermite quadrature of five nodes, Abramowitz and
-// Stegun 1964, 25.4.46; profile likelihood). Where all is known well the covariance comes back as
-// it was. `state` is the minimum of the plain adjustment of `terms`.
-NetworkCovariance bent_covariance(const Network& network, const State& state, const State& datum,
-                                  const TermOptions& terms, const NetworkCovariance& straight);
+// A combination of unknowns, in radians: what it moves in the images, over the focal length.
+struct WeakDirection {
+  Eigen::VectorXd gradient;  // by column of the reduced system
+  double sigma_rad = 0;
+};
+
+// The principal axes of the error ellipsoid of camera and photos, the longest first. Metres,
+// pixels and radians are made comparable by the angle that each moves the image by: positions over
+// the flying height, interior parameters by their effect at the corner. `common` is the covariance
+// of the reduced columns.
+std::vector<WeakDirection> weak_directions(const Network& network, const State& state,
+                                           const Eigen::MatrixXd& common);
 
 }  // namespace plumbline::orient

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "edge/base/units.h"
 #include "firmware/deliver/georeference.h"
 #include "firmware/deliver/html.h"
 #include "firmware/deliver/report_tables.h"
@@ -113,6 +114,43 @@ std::string level_mark(const Product& product, Verdict::Level level) {
   return product.check ? "Verified" : "Predicted";
 }
 
+std::string in_words(std::string name) {
+  for (const std::string unit : {"_px", "_m"}) {
+    if (name.ends_with(unit)) name.resize(name.size() - unit.size());
+  }
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+std::string signed_figure(double value) { return (value < 0 ? "" : "+") + fixed(value, 3); }
+
+std::string correlation_note(const Product& product) {
+  const auto& pairs = product.solution.summary.correlations;
+  if (pairs.empty()) return "";
+  std::string words;
+  for (const orient::Correlation& pair : pairs)
+    words += (words.empty() ? "" : "; ") + in_words(pair.a) + " and " + in_words(pair.b) + " (" +
+             signed_figure(pair.value) + ")";
+  return "Hardly told apart by the data, correlated beyond " +
+         plain(product.options.min_correlation) + ": " + words +
+         ". One of a pair is no better known than the other; what both make together may be.";
+}
+
+std::string weakest_note(const Product& product) {
+  std::string words;
+  for (const orient::WeakCombination& combination : product.solution.summary.weakest) {
+    std::string names;
+    for (const auto& [name, correlation] : combination.goes_with)
+      names += (names.empty() ? "" : ", ") + in_words(name) + " " + signed_figure(correlation);
+    words += (words.empty() ? "" : "; ") + fixed(combination.sigma_rad * kDegPerRad, 3) + kDegree +
+             (names.empty() ? " (turns of single photos)" : " (" + names + ")");
+  }
+  if (words.empty()) return "";
+  return "The combinations of camera and photos that are known worst, by the angle that one sigma "
+         "moves the images by, and the quantities they go with: " +
+         words + ".";
+}
+
 }  // namespace
 
 std::string report_header(const Product& product) {
@@ -162,6 +200,8 @@ std::string unobservable_section(const Product& product) {
              "\n";
   if (inner.empty())
     inner = paragraph("Everything that was asked for is fixed by the measurements.");
+  for (const std::string& note : {correlation_note(product), weakest_note(product)})
+    if (!note.empty()) inner += paragraph(note);
   return inner + paragraph(thresholds_note(product.options), "note");
 }
 

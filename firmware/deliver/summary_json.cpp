@@ -78,6 +78,22 @@ void add_blunders(Json& json, const orient::Summary& summary) {
                                  {"sentence", clean_utf8(item.sentence)}});
 }
 
+// What the data do not tell apart, and the combinations known worst.
+void add_correlations(Json& json, const orient::Summary& summary) {
+  json["correlations"] = Json::array();
+  for (const orient::Correlation& pair : summary.correlations)
+    json["correlations"].push_back(
+        {{"a", pair.a}, {"b", pair.b}, {"correlation", number(pair.value)}});
+  json["weakest"] = Json::array();
+  for (const orient::WeakCombination& combination : summary.weakest) {
+    Json goes_with = Json::object();
+    for (const auto& [name, correlation] : combination.goes_with)
+      goes_with[name] = number(correlation);
+    json["weakest"].push_back(
+        {{"sigma_deg", number(combination.sigma_rad * kDegPerRad)}, {"goes_with", goes_with}});
+  }
+}
+
 void add_observability(Json& json, const Product& product) {
   json["unobservable"] = Json::array();
   json["unobservable_explained"] = Json::object();
@@ -85,6 +101,7 @@ void add_observability(Json& json, const Product& product) {
     json["unobservable"].push_back(clean_utf8(item.name));
     json["unobservable_explained"][clean_utf8(item.name)] = clean_utf8(item.sentence);
   }
+  add_correlations(json, product.solution.summary);
   add_blunders(json, product.solution.summary);
   json["relative_only"] = texts(relative_only(product));
   std::vector<std::string> warnings = product.solution.summary.warnings;
@@ -136,6 +153,7 @@ void add_thresholds(Json& json, const orient::Options& options) {
                      {"max_height_sigma", number(options.max_height_sigma)},
                      {"max_position_sigma_m", number(options.max_position_sigma_m)},
                      {"min_variance_reduction", number(options.min_variance_reduction)},
+                     {"min_correlation", number(options.min_correlation)},
                      {"tilt_sigma_deg", number(options.tilt_sigma_deg)},
                      {"rejection_sigma", number(options.rejection_sigma)}};
 }

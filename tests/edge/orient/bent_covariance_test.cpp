@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "edge/orient/weak_directions.h"
+#include "edge/orient/bent_covariance.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "edge/orient/covariance.h"
+#include "edge/orient/network.h"
+#include "edge/orient/terms.h"
+
+namespace plumbline::orient {
+
+// An error bar is straight, and a climb that knows its azimuth or its level to a degree is not:
+// points turn along arcs, and what images allow for is no parabola. The directions in which the
+// photos are known worst are followed to both sides, everything else adjusted to each place, and
+// the covariance along them is replaced by the second moments, about the estimate, of what was
+// found there, weighted by its likelihood (Gauss-Hermite quadrature of five nodes, Abramowitz and
+// Stegun 1964, 25.4.46; profile likelihood). Where all is known well the covariance comes back as
+// it was. `state` is the minimum of the plain adjustment of `terms`.
+NetworkCovariance bent_covariance(const Network& network, const State& state, const State& datum,
+                                  const TermOptions& terms, const NetworkCovariance& straight);
+
+}  // namespace plumbline::orient

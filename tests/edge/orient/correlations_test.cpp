@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "edge/orient/correlations.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "edge/orient/adjust.h"
+#include "tests/edge/orient/made_flight.h"
+
+namespace plumbline::orient {
+namespace {
+
+using testing::FlightPlan;
+
+Summary summary_of(const FlightPlan& plan, double min_correlation = 0.9) {
+  Options options;
+  options.min_correlation = min_correlation;
+  const auto solution = adjust(testing::make_flight(plan, 5).problem, options);
+  EXPECT_TRUE(solution) << solution.error().sentence;
+  return solution ? solution->summary : Summary{};
+}
+
+double correlation_of(const Summary& summary, const std::string& a, const std::string& b) {
+  for (const Correlation& pair : summary.correlations) {
+    if ((pair.a == a && pair.b == b) || (pair.a == b && pair.b == a)) return pair.value;
+  }
+  return 0;
+}
+
+// Photos looking straight down at ground that is nearly flat see f over the flying height; of a
+// camera known to 2 % and a height known to nobody the ratio alone is left.
+TEST(Correlations, SayThatAScaleFromALengthLeavesFocalLengthAndHeightTogether) {
+  FlightPlan plan;
+  plan.stations = false;
+  plan.known_length = true;
+  plan.side_step_m = 0;
+  plan.f_sigma = 0.02;
+  const Summary summary = summary_of(plan);
+  EXPECT_GT(correlation_of(summary, "focal_length_px", "flying_height"), 0.95);
+  for (const Correlation& pair : summary.correlations) {
+    EXPECT_GT(std::abs(pair.value), 0.9);
+    EXPECT_LE(std::abs(pair.value), 1.0);
+    EXPECT_NE(pair.a, "azimuth") << "nothing gives one";
+  }
+}
+
+TEST(Correlations, AreSortedByStrength) {
+  const Summary summary = summary_of({}, 0.5);
+  ASSERT_GT(summary.correlations.size(), 1u);
+  EXPECT_TRUE(std::is_sorted(
+      summary.correlations.begin(), summary.correlations.end(),
+      [](const auto& a, const auto& b) { return std::abs(a.value) > std::abs(b.value); }));
+}
+
+TEST(WeakestCombinations, NameTheAzimuthOfAPureClimb) {
+  FlightPlan plan;
+  plan.side_step_m = 0;
+  const Summary summary = summary_of(plan);
+  ASSERT_FALSE(summary.weakest.empty());
+  const WeakCombination& worst = summary.weakest.front();
+  const auto azimuth = std::find_if(worst.goes_with.begin(), worst.goes_with.end(),
+                                    [](const auto& part) { return part.first == "azimuth"; });
+  ASSERT_NE(azimuth, worst.goes_with.end());
+  EXPECT_GT(std::abs(azimuth->second), 0.95);
+  EXPECT_GT(worst.sigma_rad, summary.common.azimuth_rad);  // all photos turn by it
+  EXPECT_GE(worst.sigma_rad, summary.weakest.back().sigma_rad);
+}
+
+}  // namespace
+}  // namespace plumbline::orient
