@@ -16,6 +16,8 @@ constexpr double kLeastLambda = 1e-12;
 constexpr double kMostLambda = 1e8;
 constexpr double kDampingFactor = 8;
 constexpr double kNearlyUndamped = 1e-3;
+// The cost is a chi-square: what is left of such a gain is far below one sigma of anything.
+constexpr double kNegligible = 1e-10;
 // What summing some ten thousand squares leaves.
 constexpr double kRounding = 1e-11;
 
@@ -64,7 +66,8 @@ class Minimiser {
         continue;
       }
       const double gain = minimum_.cost - there;
-      minimum_.converged = gain <= options_.tolerance * minimum_.cost && lambda_ < kNearlyUndamped;
+      const double least = std::max(options_.tolerance * minimum_.cost, kNegligible);
+      minimum_.converged = gain <= least && lambda_ < kNearlyUndamped;
       minimum_.state = std::move(trial);
       minimum_.cost = there;
       terms_ = std::move(terms);

@@ -9,7 +9,8 @@ namespace plumbline::orient {
 struct MinimiseOptions {
   double cauchy_scale = 0;  // of image rays, in sigmas; 0 = plain least squares
   int max_iterations = 100;
-  // A step that lowers the cost by less than this share, nearly undamped, is the last one.
+  // A step that lowers the cost by less than this share (or by nothing to speak of), nearly
+  // undamped, is the last one.
   double tolerance = 1e-10;
 };
 
