@@ -31,6 +31,8 @@ constexpr int kCrudeIterations = 30;
 constexpr double kCrudeTolerance = 1e-4;
 constexpr double kRobustTolerance = 1e-6;
 constexpr double kFinalTolerance = 1e-13;
+// Along the valley of a climb that knows no azimuth the last metres are slow.
+constexpr int kFinalPatience = 5;  // times the iterations of a stage
 // Photos whose largest separation is below this share of the flying height stand on one place: of
 // less, image noise alone makes as much.
 constexpr double kLeastBase = 0.02;
@@ -148,7 +150,8 @@ class Adjustment {
       // While a wrong claim pulls, rays are not judged.
       int changed = doubted ? 0 : reject_rays(network_, state_, options_.rejection_sigma);
       changed += drop_far_points() + drop_points_at_cameras(network_, state_);
-      minimise_from(datum_, {0, options_.max_iterations, tolerance});
+      const int patience = tolerance == kFinalTolerance ? kFinalPatience : 1;
+      minimise_from(datum_, {0, patience * options_.max_iterations, tolerance});
       const RaysLinear rays = linearise_rays(network_, state_, 0);
       const auto terms = linearised_terms(network_, state_, datum_, terms_);
       const auto equations = normal_equations(network_, state_, 0, terms);

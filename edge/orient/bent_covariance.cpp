@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "edge/orient/corrected_information.h"
 #include "edge/orient/minimise.h"
 #include "edge/orient/step.h"
 #include "edge/orient/weak_directions.h"
@@ -17,7 +18,7 @@ namespace {
 
 // Directions known better than this bend by less than 0.2 mm in a picture of a hundred metres.
 constexpr double kLeastAngleRad = 0.002;
-constexpr std::size_t kMostDirections = 6;
+constexpr std::size_t kMostDirections = 14;
 // Pairs of directions whose product is less twist by less than 2 mm in a hundred metres.
 constexpr double kLeastTwistRad2 = 2e-5;
 constexpr double kFarthestRad = 2.5;
@@ -186,7 +187,8 @@ Step mean_of(const std::vector<Arc>& arcs) {
 }  // namespace
 
 NetworkCovariance bent_covariance(const Network& network, const State& state, const State& datum,
-                                  const TermOptions& terms, const NetworkCovariance& straight) {
+                                  const TermOptions& terms, const NetworkCovariance& linear) {
+  const NetworkCovariance straight = without_borrowed(network, state, datum, terms, linear);
   NetworkCovariance bent = straight;
   const Explorer explorer(network, state, datum, terms, straight);
   std::vector<Arc> arcs;

@@ -81,14 +81,7 @@ std::vector<int> groups_of_points(const Network& network) {
 std::optional<NetworkCovariance> NetworkCovariance::of(const Network& network,
                                                        const NormalEquations& equations) {
   NetworkCovariance out;
-  auto inverse = inverse_of(reduced_matrix(equations, 0));
-  if (!inverse) return std::nullopt;
-  out.common_ = std::move(*inverse);
-  for (int i = 0; i < kShared; ++i) {
-    if (network.shared_mask[i] != 0) continue;
-    out.common_.row(i).setZero();
-    out.common_.col(i).setZero();
-  }
+  if (!out.set_common(network, reduced_matrix(equations, 0))) return std::nullopt;
   out.columns_of_group_ = equations.columns_of_group;
   out.group_of_point_ = groups_of_points(network);
   for (const int slot : network.slot_of_photo)
@@ -104,6 +97,25 @@ std::optional<NetworkCovariance> NetworkCovariance::of(const Network& network,
     const int kept_index = network.layout.kept_of_point[at(p)];
     if (kept_index >= 0) out.points_[at(p)] = kept(network.layout.kept_point(kept_index));
   }
+  return out;
+}
+
+bool NetworkCovariance::set_common(const Network& network, const Eigen::MatrixXd& reduced) {
+  auto inverse = inverse_of(reduced);
+  if (!inverse) return false;
+  common_ = std::move(*inverse);
+  for (int i = 0; i < kShared; ++i) {
+    if (network.shared_mask[i] != 0) continue;
+    common_.row(i).setZero();
+    common_.col(i).setZero();
+  }
+  return true;
+}
+
+std::optional<NetworkCovariance> NetworkCovariance::with_reduced(
+    const Network& network, const Eigen::MatrixXd& reduced) const {
+  NetworkCovariance out = *this;
+  if (!out.set_common(network, reduced)) return std::nullopt;
   return out;
 }
 

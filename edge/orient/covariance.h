@@ -34,6 +34,10 @@ class NetworkCovariance final : public PointCovariances {
   static std::optional<NetworkCovariance> of(const Network& network,
                                              const NormalEquations& equations);
 
+  // The same with another reduced matrix, of less information. Empty where it is singular.
+  std::optional<NetworkCovariance> with_reduced(const Network& network,
+                                                const Eigen::MatrixXd& reduced) const;
+
   // columns x columns; a bent one has more, of the places that bent it.
   const Eigen::MatrixXd& common() const { return common_; }
   const PointFactor& point(int index) const { return points_[static_cast<std::size_t>(index)]; }
@@ -60,6 +64,7 @@ class NetworkCovariance final : public PointCovariances {
   void turn_own_parts(const Network& network);
 
  private:
+  bool set_common(const Network& network, const Eigen::MatrixXd& reduced);
   std::vector<int> by_group() const;
   Eigen::MatrixXd common_block(const std::vector<int>& rows, const std::vector<int>& cols) const;
 

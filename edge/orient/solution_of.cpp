@@ -15,6 +15,7 @@ namespace plumbline::orient {
 namespace {
 
 constexpr double kWorthSaying = 1.2;
+constexpr double kFarTurn = 0.2;  // rad
 
 geometry::Camera adjusted_camera(const Finished& f) {
   geometry::Camera camera = f.network.problem->camera;
@@ -113,6 +114,18 @@ void summarise_fits(const Finished& f, Summary& summary) {
   summary.redundancy = static_cast<int>(std::lround(total.redundancy));
 }
 
+// Points far along the arc of an unknown azimuth look, along its tangent, as if scale and position
+// were unknown too. Those are then as the straight covariance has them.
+CommonSigmas without_arc(const Finished& f, const Summary& summary) {
+  const auto frame = fit_local_frame(f.state, f.covariance, f.covariance.point_covariances());
+  CommonSigmas straight =
+      common_sigmas({f.network, f.state, f.terms, f.covariance, frame}, summary.flying_height_m);
+  straight.azimuth_rad = summary.common.azimuth_rad;
+  straight.height = std::max(straight.height, summary.common.height);
+  straight.focal_length = summary.common.focal_length;
+  return straight;
+}
+
 void warn_of_correlation(Summary& summary) {
   const double widened = std::sqrt(summary.image_design_effect);
   if (widened < kWorthSaying) return;
@@ -156,6 +169,7 @@ Solution solution_of(const Finished& f, const Options& options) {
   summary.flying_height_m = flying_height(f.network, f.state);
   const Evidence evidence{f.network, f.state, f.terms, f.bars, frame};
   summary.common = common_sigmas(evidence, summary.flying_height_m);
+  if (summary.common.azimuth_rad > kFarTurn) summary.common = without_arc(f, summary);
   summary.delay = time_estimate(f, kDelay, f.state.delay_s);
   summary.line_time = time_estimate(f, kLineTime, f.state.line_time_s);
   summary.unobservable = unobservable(evidence, summary.common, options);
