@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "edge/orient/adjust.h"
@@ -85,6 +87,38 @@ TEST(NetworkCovariance, GrowsByTheSquareOfWhatBendsIt) {
   EXPECT_LT(
       (covariance->point_covariances()[at(free_points[0])] - expected.topLeftCorner<3, 3>()).norm(),
       1e-9 * expected.norm());
+}
+
+// The second moment of w x u by the axes of both ellipsoids, for independent w and u.
+TEST(NetworkCovariance, TurnsThePointsOwnErrorsWithThePhotos) {
+  testing::SmallNetwork small(5);
+  const auto terms = linearised_terms(small.network, small.state, small.datum, small.options);
+  auto covariance =
+      NetworkCovariance::of(small.network, normal_equations(small.network, small.state, 0, terms));
+  ASSERT_TRUE(covariance);
+  const NetworkCovariance before = *covariance;
+  covariance->turn_own_parts(small.network);
+  using Solver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
+  for (int p = 0; p < small.network.points(); ++p) {
+    if (!before.point(p).measured) continue;
+    Eigen::Matrix3d expected = before.point(p).own;
+    const Solver own(before.point(p).own);
+    const int rays = used_rays(small.network, p);
+    for (int k = small.network.first_ray[at(p)]; k < small.network.first_ray[at(p) + 1]; ++k) {
+      if (!small.network.rays[at(k)].used) continue;
+      const int first = small.network.layout.photo(small.network.rays[at(k)].slot) + 3;
+      const Solver turn(Eigen::Matrix3d(before.common().block<3, 3>(first, first)));
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+          const Eigen::Vector3d moved =
+              Eigen::Vector3d(turn.eigenvectors().col(i)).cross(own.eigenvectors().col(j));
+          expected +=
+              turn.eigenvalues()[i] * own.eigenvalues()[j] / rays * moved * moved.transpose();
+        }
+      }
+    }
+    EXPECT_LT((covariance->point(p).own - expected).norm(), 1e-9 * expected.norm() + 1e-18) << p;
+  }
 }
 
 }  // namespace

@@ -106,5 +106,44 @@ TEST(Adjust, RefusesNumbersThatAreNone) {
   EXPECT_NE(solution.error().sentence.find("photo2"), std::string::npos);
 }
 
+// A point near the foot once ended in the lower camera, where each of its rays fits.
+TEST(TwoPhotoClimb, LeavesNoPointInACamera) {
+  for (const std::uint64_t seed : {100774, 100181, 1, 2, 3}) {
+    FlightPlan plan;
+    plan.heights_m = {70, 90};
+    plan.side_step_m = 0;
+    plan.heading_sigma_deg = 1;
+    plan.tilt_sigma_deg = 2;
+    plan.image_sigma_px = seed == 100181 ? 0.3 : 0.1;
+    const auto flight = make_flight(plan, seed);
+    const auto solution = adjust(flight.problem, {});
+    ASSERT_TRUE(solution) << solution.error().sentence;
+    EXPECT_TRUE(solution->summary.converged) << seed;
+    for (const MeasuredPoint& point : solution->points)
+      EXPECT_LT(point.measured ? point.in_enu_m.z() : 0, 30) << seed;
+  }
+}
+
+// At 1 px the free network of five photos may lie on the wrong side of the circle, without any
+// station being far off: the cost alone is in doubt.
+TEST(NoisyClimb, FindsItsSideOfTheCircle) {
+  for (const std::uint64_t seed : {100060, 100851, 100894, 100336, 1, 2}) {
+    FlightPlan plan;
+    plan.heights_m = {70, 75, 80, 85, 90};
+    plan.side_step_m = 5;
+    plan.tilt_sigma_deg = 2;
+    plan.image_sigma_px = 1;
+    const auto flight = make_flight(plan, seed);
+    const auto solution = adjust(flight.problem, {});
+    ASSERT_TRUE(solution) << solution.error().sentence;
+    EXPECT_TRUE(solution->summary.blunders.empty()) << seed;
+    for (int p = 0; p < flight.targets; ++p) {
+      const MeasuredPoint& point = solution->points[at(p)];
+      if (!point.measured) continue;
+      EXPECT_LT((point.in_enu_m - flight.points[at(p)]).norm(), 12) << seed;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plumbline::orient
