@@ -15,7 +15,7 @@ namespace plumbline::orient {
 namespace {
 
 constexpr double kWorthSaying = 1.2;
-constexpr double kFarTurn = 0.2;  // rad
+constexpr double kBendingTurn = 0.01;  // rad: its arc is 5e-5 of its radius
 
 geometry::Camera adjusted_camera(const Finished& f) {
   geometry::Camera camera = f.network.problem->camera;
@@ -114,16 +114,13 @@ void summarise_fits(const Finished& f, Summary& summary) {
   summary.redundancy = static_cast<int>(std::lround(total.redundancy));
 }
 
-// Points far along the arc of an unknown azimuth look, along its tangent, as if scale and position
-// were unknown too. Those are then as the straight covariance has them.
-CommonSigmas without_arc(const Finished& f, const Summary& summary) {
-  const auto frame = fit_local_frame(f.state, f.covariance, f.covariance.point_covariances());
-  CommonSigmas straight =
-      common_sigmas({f.network, f.state, f.terms, f.covariance, frame}, summary.flying_height_m);
-  straight.azimuth_rad = summary.common.azimuth_rad;
-  straight.height = std::max(straight.height, summary.common.height);
-  straight.focal_length = summary.common.focal_length;
-  return straight;
+// Points along the arc of a poorly known azimuth look, by a linear fit, as if scale and level were
+// unknown too; those are not angles about the vertical, and are as the straight covariance has
+// them.
+void take_off_arc(const CommonSigmas& straight, CommonSigmas& common) {
+  if (!(common.azimuth_rad > kBendingTurn)) return;
+  common.scale = straight.scale;
+  common.tilt_rad = straight.tilt_rad;
 }
 
 void warn_of_correlation(Summary& summary) {
@@ -169,12 +166,15 @@ Solution solution_of(const Finished& f, const Options& options) {
   summary.flying_height_m = flying_height(f.network, f.state);
   const Evidence evidence{f.network, f.state, f.terms, f.bars, frame};
   summary.common = common_sigmas(evidence, summary.flying_height_m);
-  if (summary.common.azimuth_rad > kFarTurn) summary.common = without_arc(f, summary);
+  const LocalFrameFit straight_frame =
+      fit_local_frame(f.state, f.covariance, f.covariance.point_covariances());
+  const Evidence straight{f.network, f.state, f.terms, f.covariance, straight_frame};
+  take_off_arc(common_sigmas(straight, summary.flying_height_m), summary.common);
   summary.delay = time_estimate(f, kDelay, f.state.delay_s);
   summary.line_time = time_estimate(f, kLineTime, f.state.line_time_s);
   summary.unobservable = unobservable(evidence, summary.common, options);
-  summary.correlations = correlations(evidence, options.min_correlation);
-  summary.weakest = weakest_combinations(evidence);
+  summary.correlations = correlations(straight, options.min_correlation);
+  summary.weakest = weakest_combinations(straight);
   warn_of_left_out(f, solution, summary);
   add_findings(f, solution);
   warn_of_correlation(summary);

@@ -47,7 +47,10 @@ TEST(BentCovariance, SaysThatTheAzimuthIsAnyonesGuess) {
   plan.heights_m = {70, 90};
   plan.side_step_m = 0;
   plan.tilt_sigma_deg = 2;
-  EXPECT_GT(solved(plan, true).summary.common.azimuth_rad, 0.5);
+  const CommonSigmas common = solved(plan, true).summary.common;
+  EXPECT_GT(common.azimuth_rad, 0.5);
+  EXPECT_LT(common.scale, 0.01) << "two RTK heights carry it, whatever the azimuth";
+  EXPECT_LT(common.tilt_rad, 0.1);
 }
 
 TEST(BentCovariance, LeavesTheEstimateWhereItIs) {

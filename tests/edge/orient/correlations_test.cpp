@@ -52,6 +52,7 @@ TEST(Correlations, AreThoseOfTheAdjustedCamera) {
   plan.f_sigma = 0.02;
   Options options;
   options.min_correlation = 0.3;
+  options.bent_error_bars = false;
   const auto solution = adjust(testing::make_flight(plan, 5).problem, options);
   ASSERT_TRUE(solution) << solution.error().sentence;
   const geometry::InteriorMatrix& c = *solution->camera.covariance;
