@@ -21,7 +21,7 @@ std::vector<State> aligned_all_around(const Network& network, const State& free,
                                       const TermOptions& options, int count);
 
 // An aligned network as the priors alone would have it: photos on their stations, looking straight
-// down (or as their attitude is given) in the direction of `network`, all points on flat ground. A
+// down (or as their attitude is given) with the azimuths of `aligned`, all points on flat ground. A
 // free network of two or three photos may have gone to the wrong side of a valley; this one has
 // been nowhere.
 State levelled(const Network& network, const State& aligned, const TermOptions& options);

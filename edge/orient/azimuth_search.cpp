@@ -56,16 +56,15 @@ bool rays_contradict(const Network& network, const State& state, double cauchy_s
   return cost > kCostRatio * expected;
 }
 
-// A doubt is less than a contradiction: what images of stated sigma and all priors cost together is
-// more than their number of degrees of freedom makes likely.
+// A doubt is less than a contradiction: images and priors cost together more than their degrees of
+// freedom make likely. A photo adds six unknowns and at least three things known, its station.
 bool doubtful(const Network& network, const Descent& descent) {
-  double dof = 0;
   int points = 0, rays = 0;
   for (int p = 0; p < network.points(); ++p) {
     points += used_rays(network, p) > 0 ? 1 : 0;
     rays += used_rays(network, p);
   }
-  dof = 2 * rays - 3 * points - 3 * network.slots();
+  const double dof = 2 * rays - 3 * points - 3 * network.slots();
   return dof > 0 && descent.end.cost > dof + kDoubtSigmas * std::sqrt(2 * dof);
 }
 

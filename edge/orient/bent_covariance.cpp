@@ -97,6 +97,8 @@ class Explorer {
       moment += place->weight * reached * reached;
       arc.places.push_back(std::move(*place));
     }
+    // So poorly known that every place would be beyond half a turn.
+    if (arc.places.empty()) return std::nullopt;
     const double stretch = std::max(1.0, total / moment);
     arc.mean = scaled(arc.straight, 0);
     arc.middle_weight /= total;

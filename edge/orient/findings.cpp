@@ -202,7 +202,7 @@ void add_contradictions(const std::vector<ClaimTest>& believed, const Finished& 
 
 }  // namespace
 
-void add_findings(const Finished& f, Solution& solution) {
+void add_findings(const Finished& f, const LocalFrameFit& straight, Solution& solution) {
   const auto believed = test_claims(f.network, f.terms, f.linear, f.covariance);
   const int family = family_size(believed, f.terms);
   std::vector<ClaimTest> rejected;
@@ -216,8 +216,7 @@ void add_findings(const Finished& f, Solution& solution) {
   }
   check_stations(believed, f, solution);
   check_stations(rejected, f, solution);
-  const auto frame = fit_local_frame(f.state, f.covariance, f.covariance.point_covariances());
-  add_unchecked(f, frame, solution);
+  add_unchecked(f, straight, solution);
   add_contradictions(believed, f, solution);
 }
 

@@ -176,7 +176,7 @@ Solution solution_of(const Finished& f, const Options& options) {
   summary.correlations = correlations(straight, options.min_correlation);
   summary.weakest = weakest_combinations(straight);
   warn_of_left_out(f, solution, summary);
-  add_findings(f, solution);
+  add_findings(f, straight_frame, solution);
   warn_of_correlation(summary);
   for (std::string& sentence : cautions(evidence, summary.common)) {
     summary.warnings.push_back(std::move(sentence));

@@ -86,11 +86,17 @@ std::string ground_sample_card(const Product& product) {
               "from the lowest station; " + length_words(sample->coarsest_m) + " from the highest");
 }
 
-std::string readable(std::string name) {
+std::string in_words(std::string name) {
+  if (name.ends_with("_px")) name.resize(name.size() - 3);
   std::replace(name.begin(), name.end(), '_', ' ');
-  if (!name.empty() && name[0] >= 'a' && name[0] <= 'z')
-    name[0] = static_cast<char>(name[0] - 'a' + 'A');
   return name;
+}
+
+std::string readable(const std::string& name) {
+  std::string words = in_words(name);
+  if (!words.empty() && words[0] >= 'a' && words[0] <= 'z')
+    words[0] = static_cast<char>(words[0] - 'a' + 'A');
+  return words;
 }
 
 std::string thresholds_note(const orient::Options& o) {
@@ -112,14 +118,6 @@ std::string level_mark(const Product& product, Verdict::Level level) {
   if (level == Verdict::Level::kBad) return "Do not rely on this";
   if (level == Verdict::Level::kCaution) return "Use with care";
   return product.check ? "Verified" : "Predicted";
-}
-
-std::string in_words(std::string name) {
-  for (const std::string unit : {"_px", "_m"}) {
-    if (name.ends_with(unit)) name.resize(name.size() - unit.size());
-  }
-  std::replace(name.begin(), name.end(), '_', ' ');
-  return name;
 }
 
 std::string signed_figure(double value) { return (value < 0 ? "" : "+") + fixed(value, 3); }

@@ -53,6 +53,24 @@ TEST(BentCovariance, SaysThatTheAzimuthIsAnyonesGuess) {
   EXPECT_LT(common.tilt_rad, 0.1);
 }
 
+// Where no place along a direction is within reach the straight bar must stay, not vanish.
+TEST(BentCovariance, IsNeverLessThanAThirdOfTheStraightOne) {
+  for (const double sigma_m : {0.05, 0.5, 5.0}) {
+    FlightPlan plan;
+    plan.heights_m = {70, 90};
+    plan.side_step_m = 0;
+    plan.tilt_sigma_deg = 2;
+    plan.rtk_sigma_horizontal_m = plan.rtk_sigma_vertical_m = sigma_m;
+    const Solution bent = solved(plan, true), straight = solved(plan, false);
+    for (std::size_t p = 0; p < bent.points.size(); ++p) {
+      if (!bent.points[p].measured) continue;
+      EXPECT_TRUE(bent.points[p].covariance_m2.allFinite());
+      EXPECT_GT(bent.points[p].covariance_m2.trace(), straight.points[p].covariance_m2.trace() / 3)
+          << sigma_m << " m, point " << p;
+    }
+  }
+}
+
 TEST(BentCovariance, LeavesTheEstimateWhereItIs) {
   FlightPlan plan;
   plan.side_step_m = 0;

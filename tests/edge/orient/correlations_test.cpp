@@ -43,6 +43,7 @@ TEST(Correlations, SayThatAScaleFromALengthLeavesFocalLengthAndHeightTogether) {
     EXPECT_GT(std::abs(pair.value), 0.5);
     EXPECT_LE(std::abs(pair.value), 1.0);
     EXPECT_NE(pair.a, "azimuth") << "nothing gives one";
+    EXPECT_NE(pair.b, "azimuth") << "nothing gives one";
   }
 }
 
