@@ -39,10 +39,12 @@ NetworkCovariance without_borrowed(const Network& network, const State& state, c
                                         reduced_at(shifted_points(network, state, straight, -1)));
   const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(around - here, here);
   if (modes.info() != Eigen::Success || !modes.eigenvalues().allFinite()) return straight;
-  const Eigen::VectorXd borrowed = modes.eigenvalues().cwiseMax(0).cwiseMin(kMostBorrowed);
+  // A = S (1 - borrowed), so that A S^-1 A = S (1 - borrowed)^2.
+  const Eigen::ArrayXd owned = 1 - modes.eigenvalues().array().max(0).min(kMostBorrowed);
+  const Eigen::VectorXd lost = 1 - owned.square();
   const Eigen::MatrixXd by = here * modes.eigenvectors();
-  const Eigen::MatrixXd owned = here - by * borrowed.asDiagonal() * by.transpose();
-  return straight.with_reduced(network, 0.5 * (owned + owned.transpose())).value_or(straight);
+  const Eigen::MatrixXd left = here - by * lost.asDiagonal() * by.transpose();
+  return straight.with_reduced(network, 0.5 * (left + left.transpose())).value_or(straight);
 }
 
 }  // namespace plumbline::orient

@@ -109,7 +109,10 @@ class Conditions {
     add("climb5-pure", plan, at_least_covered());
     plan.image_sigma_px = 0.3;
     plan.heights_m = {70, 90};
-    add("climb2-pure", plan, at_least_covered());
+    Claim two = at_least_covered();
+    two.of_local = true;
+    two.azimuth_declared = true;
+    add("climb2-pure", plan, two);
     for (const double sigma_px : {0.1, 0.5}) {
       plan = base_;
       plan.image_sigma_px = sigma_px;
@@ -201,6 +204,8 @@ std::vector<std::string> shortcomings(const Claim& claim, const Tally& t) {
   Judge judge;
   judge.at_most("flights without a solution", t.failed, 0);
   judge.at_most("flights that did not converge", t.unconverged, 0);
+  if (claim.azimuth_declared)
+    judge.at_least("flights that declare their azimuth", t.azimuth_declared, t.trials);
   judge.at_most("RMSE over bound", t.absolute.ratio(), claim.absolute_ratio);
   judge.at_most("RMSE over bound after a best fit", t.local.ratio(), claim.local_ratio);
   const Shares& points = claim.of_local ? t.local_points : t.points;

@@ -18,6 +18,7 @@ struct Claim {
   double least_one = 0, most_one = 1;  // share of points and poses within one sigma
   double least_two = 0, most_two = 1;
   bool of_local = false;           // shares are those about the best fit: there is no other frame
+  bool azimuth_declared = false;   // every flight says that its azimuth is not observable
   bool single_quantities = false;  // focal length and azimuth within the binomial interval
   bool joint = false;              // NEES of all points within its chi-square interval
   double accepted_gross = 1;       // share of the accepted observations
