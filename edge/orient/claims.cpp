@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <memory>
 
 namespace plumbline::orient {
@@ -65,6 +64,15 @@ void add_term_claims(const Term& term, const Network& network, const TermOptions
   }
 }
 
+// Without a claim that is checked so little, some quantity's sigma grows at least fivefold.
+constexpr double kCarriedAlone = 0.04;
+constexpr double kShareOfCarriers = 0.1;
+
+double share_of(const RowsTest& rows) {
+  if (rows.dof == 0) return 0;
+  return rows.least_redundancy < kCarriedAlone ? kShareOfCarriers : 1;
+}
+
 // One set of products for all claims of a term.
 class Reliabilities {
  public:
@@ -121,29 +129,25 @@ std::vector<ClaimTest> test_claims(const Network& network, const TermOptions& op
     const ClaimRows rows = rows_of(claim, network, options, terms);
     tests.push_back({claim, reliabilities.of(rows.term).test(rows.first, rows.count), {}, true});
   }
-  const int family = family_size(tests, options);
-  std::map<int, Threshold> thresholds;
-  for (ClaimTest& test : tests) {
-    const auto [place, made] = thresholds.try_emplace(test.rows.dof);
-    if (made) place->second = threshold(test.rows.dof, family);
-    test.threshold = place->second;
-  }
+  const double family = family_size(tests, options);
+  for (ClaimTest& test : tests)
+    test.threshold = threshold(test.rows.dof, share_of(test.rows) / family);
   return tests;
 }
 
-int family_size(const std::vector<ClaimTest>& believed, const TermOptions& options) {
-  auto size = std::count_if(believed.begin(), believed.end(),
-                            [](const ClaimTest& test) { return test.rows.dof > 0; });
+double family_size(const std::vector<ClaimTest>& believed, const TermOptions& options) {
+  double size = 0;
+  for (const ClaimTest& test : believed) size += share_of(test.rows);
   for (const auto* weights :
        {&options.station_weights, &options.length_weights, &options.control_weights})
-    size += std::count(weights->begin(), weights->end(), 0.0);
-  size += std::count(options.interior_freed.begin(), options.interior_freed.end(), true);
-  return static_cast<int>(size);
+    size += static_cast<double>(std::count(weights->begin(), weights->end(), 0.0));
+  const auto& freed = options.interior_freed;
+  return size + static_cast<double>(std::count(freed.begin(), freed.end(), true));
 }
 
 ClaimTest test_rejected(const Claim& claim, const Network& network, const State& state,
                         const State& start, const TermOptions& options,
-                        const NetworkCovariance& covariance, int tests) {
+                        const NetworkCovariance& covariance, double family) {
   TermOptions with = options;
   set_believed(claim, true, network, with);
   const Terms terms = linearised_terms(network, state, start, with);
@@ -152,7 +156,7 @@ ClaimTest test_rejected(const Claim& claim, const Network& network, const State&
   if (rows.term < 0) return test;
   test.rows =
       TermReliability(terms[at(rows.term)], covariance).test_outside(rows.first, rows.count);
-  test.threshold = threshold(test.rows.dof, tests);
+  test.threshold = threshold(test.rows.dof, share_of(test.rows) / family);
   return test;
 }
 

@@ -110,7 +110,8 @@ bool Doubts::reject_worst(const std::vector<ClaimTest>& tests, const Network& ne
 
 // Once each, so that nothing goes round in circles.
 bool Doubts::take_one_back(const Network& network, const State& state, const State& start,
-                           const NetworkCovariance& covariance, int family, TermOptions& options) {
+                           const NetworkCovariance& covariance, double family,
+                           TermOptions& options) {
   for (const Claim& claim : rejected_) {
     if (contains(taken_back_, claim)) continue;
     const ClaimTest test = test_rejected(claim, network, state, start, options, covariance, family);

@@ -33,7 +33,7 @@ class Doubts {
   bool reject_worst(const std::vector<ClaimTest>& tests, const Network& network,
                     TermOptions& options);
   bool take_one_back(const Network& network, const State& state, const State& start,
-                     const NetworkCovariance& covariance, int family, TermOptions& options);
+                     const NetworkCovariance& covariance, double family, TermOptions& options);
   bool may_reject(const Claim& claim, const Network& network, const TermOptions& options) const;
 
   std::vector<Claim> rejected_;

@@ -204,7 +204,7 @@ void add_contradictions(const std::vector<ClaimTest>& believed, const Finished& 
 
 void add_findings(const Finished& f, const LocalFrameFit& straight, Solution& solution) {
   const auto believed = test_claims(f.network, f.terms, f.linear, f.covariance);
-  const int family = family_size(believed, f.terms);
+  const double family = family_size(believed, f.terms);
   std::vector<ClaimTest> rejected;
   for (const Claim& claim : f.rejected)
     rejected.push_back(

@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -28,9 +29,9 @@ Modes modes_of(const Eigen::MatrixXd& spread, const Eigen::MatrixXd& own) {
 
 }  // namespace
 
-Threshold threshold(int dof, int tests) {
-  if (dof <= 0 || tests <= 0) return {};
-  const double each = -std::expm1(std::log1p(-kFalseAlarms) / tests);
+Threshold threshold(int dof, double share) {
+  if (dof <= 0 || share <= 0) return {};
+  const double each = -std::expm1(std::log1p(-kFalseAlarms) * share);
   const double critical = chi_square_quantile(1 - each, dof);
   return {critical, noncentrality_for_power(critical, dof, kPower)};
 }
@@ -62,6 +63,7 @@ RowsTest TermReliability::test(int first, int count) const {
   out.gross_error.setZero(count);
   const Eigen::VectorXd v = m.modes.transpose() * weighted_.segment(first, count);
   for (int i = 0; i < count; ++i) {
+    out.least_redundancy = std::min(out.least_redundancy, std::max(m.share[i], 0.0));
     if (m.share[i] < kLeastRedundancy) continue;
     ++out.dof;
     out.statistic += v[i] * v[i] / m.share[i];
@@ -86,6 +88,7 @@ RowsTest TermReliability::test_outside(int first, int count) const {
   const Eigen::VectorXd v = m.modes.transpose() * weighted_.segment(first, count);
   for (int i = 0; i < count; ++i) {
     const double share = 1 / (1 + m.share[i]);
+    out.least_redundancy = std::min(out.least_redundancy, share);
     const Eigen::VectorXd along = own * m.modes.col(i);
     out.redundancy += share * along.cwiseAbs2().cwiseQuotient(own.diagonal());
     if (share < kLeastRedundancy) continue;

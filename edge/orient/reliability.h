@@ -26,15 +26,17 @@ struct RowsTest {
   Eigen::MatrixXd detectability;
   Eigen::VectorXd redundancy;   // of each row, 0 (not checked at all) to 1
   Eigen::VectorXd gross_error;  // its estimate (known minus true), in the directions tested
+  // Redundancy of the direction in which the rows are checked least, tested or not.
+  double least_redundancy = 1;
 };
 
-// The critical value and the non-centrality of the power wanted, for one of `tests` tests that
-// share kFalseAlarms: each gets 1 - (1 - alpha)^(1 / tests) (Sidak 1967).
+// The critical value and the non-centrality of the power wanted, for a test that has this share of
+// kFalseAlarms: it gets 1 - (1 - alpha)^share (Sidak 1967).
 struct Threshold {
   double critical = 0;
   double noncentrality = 0;
 };
-Threshold threshold(int dof, int tests);
+Threshold threshold(int dof, double share);
 
 // The smallest error of each row alone that the test finds with the power wanted; infinite where
 // nothing checks the row.
