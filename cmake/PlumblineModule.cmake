@@ -47,5 +47,11 @@ function(plumbline_test NAME)
     # GCC 12 takes std::regex's own state for uninitialised where sanitizers instrument it.
     target_compile_options(${NAME}_test PRIVATE -Wno-maybe-uninitialized)
   endif()
-  gtest_discover_tests(${NAME}_test DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 900)
+  # What touches devices or their libraries, to be built and run by itself: ctest -L devices.
+  set(LABELS "")
+  if(CMAKE_CURRENT_SOURCE_DIR MATCHES "/tests/(contract|drivers)")
+    set(LABELS LABELS devices)
+    add_dependencies(device_tests ${NAME}_test)
+  endif()
+  gtest_discover_tests(${NAME}_test DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 900 ${LABELS})
 endfunction()
