@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+#include "edge/base/result.h"
+
+namespace plumbline::posix {
+
+// "Cannot write photos/0003.jpg: the disk is full; make space on it." for what was attempted, the
+// file's path as the user knows it, and errno.
+Error storage_error(const std::string& attempted, const std::string& path, int code);
+
+}  // namespace plumbline::posix
