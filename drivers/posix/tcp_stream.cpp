@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "drivers/posix/tcp_stream.h"
 
-#include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>

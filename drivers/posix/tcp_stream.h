@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <netdb.h>
+
 #include <string>
 
 #include "drivers/posix/polled_stream.h"
@@ -18,7 +20,7 @@ class TcpStream : public PolledStream {
 
  private:
   std::string why_gone(int fault) const override;
-  int connect_to(const struct addrinfo& address);
+  int connect_to(const addrinfo& address);
   int finish_connecting();
   Opening not_reached(const std::string& why) const;
 
