@@ -15,12 +15,25 @@ void LogParser::feed(std::string_view bytes) {
   if (kind_ != LogKind::kNmea) rtklib_.feed(bytes);
 }
 
+void LogParser::flush() {
+  if (kind_ != LogKind::kRtklib) nmea_.flush();
+}
+
+void LogParser::cut() {
+  rtklib_.begin_amid_a_line();
+  finish();
+}
+
+ByteRange LogParser::epoch_bytes() const {
+  return kind_ == LogKind::kRtklib ? rtklib_.epoch_bytes() : nmea_.epoch_bytes();
+}
+
 void LogParser::finish() {
   if (kind_ != LogKind::kRtklib) nmea_.finish();
   if (kind_ != LogKind::kNmea) rtklib_.finish();
 }
 
-const Counters& LogParser::counters() const {
+const DecoderCounters& LogParser::counters() const {
   return kind_ == LogKind::kRtklib ? rtklib_.counters() : nmea_.counters();
 }
 
@@ -29,7 +42,7 @@ bool LogParser::gps_time_assumed() const {
 }
 
 std::string LogParser::reason_for_nothing() const {
-  const Counters& nmea = nmea_.counters();
+  const DecoderCounters& nmea = nmea_.counters();
   if (nmea.bytes == 0) return "is empty";
   if (rtklib_.refusal()) return "cannot be used: " + *rtklib_.refusal();
   if (nmea.sentences > 0) {

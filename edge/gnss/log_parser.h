@@ -25,10 +25,19 @@ class LogParser {
   LogParser& operator=(const LogParser&) = delete;
 
   void feed(std::string_view bytes);
-  void finish();
+  void flush();   // the burst is over: hands out the epoch begun
+  void finish();  // the input ends here, with or without a line end
+
+  // Told before the first byte: the input may begin amid a line.
+  void begin_amid_a_line() { rtklib_.begin_amid_a_line(); }
+  // As finish(), but the input broke off: a line begun is none.
+  void cut();
+
+  // Of the epoch being handed out.
+  ByteRange epoch_bytes() const;
 
   LogKind kind() const { return kind_; }
-  const Counters& counters() const;
+  const DecoderCounters& counters() const;
   const std::optional<BasePosition>& base() const { return nmea_.base(); }
   bool gps_time_assumed() const;
 

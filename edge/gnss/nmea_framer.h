@@ -6,16 +6,9 @@
 #include <string>
 #include <string_view>
 
-namespace plumbline::gnss {
+#include "edge/base/fix_decoder.h"
 
-// What passed through a parser. Each sentence is counted once: as good, as bad or as malformed.
-struct Counters {
-  std::uint64_t bytes = 0;
-  std::uint64_t sentences = 0;     // whole and readable, whether of use to us or not
-  std::uint64_t bad_checksum = 0;  // ended by '*' and two characters that are not its checksum
-  std::uint64_t malformed = 0;     // cut, without checksum, too long, or fields that say nothing
-  std::uint64_t epochs = 0;        // position epochs handed out, with or without a position
-};
+namespace plumbline::gnss {
 
 // Cuts NMEA 0183 sentences out of any stream of bytes: '$', at least two capitals, printable
 // characters, '*', the exclusive or of all between '$' and '*' in two hexadecimal digits, and then
@@ -32,18 +25,25 @@ class NmeaFramer {
   void feed(std::string_view bytes);
   void finish();  // the input ends here, with or without a line end
 
-  Counters& counters() { return counters_; }
-  const Counters& counters() const { return counters_; }
+  // From '$' to the checksum, of the sentence handed out last.
+  ByteRange sentence_bytes() const { return sentence_bytes_; }
+
+  DecoderCounters& counters() { return counters_; }
+  const DecoderCounters& counters() const { return counters_; }
 
  private:
-  void take(char c);
-  void end_sentence();
-  void abandon();
+  std::size_t take(std::string_view bytes);
+  void end_sentence(std::string_view sentence);
+  void end_good(std::string_view body);
+  void abandon(std::string_view sentence);
+  void leave();
 
   Sink sink_;
-  Counters counters_;
+  DecoderCounters counters_;
   bool inside_ = false;
-  std::string sentence_;  // after '$'
+  std::uint64_t begin_ = 0;  // where the '$' was
+  std::string kept_;         // after '$', of the calls before
+  ByteRange sentence_bytes_;
 };
 
 }  // namespace plumbline::gnss

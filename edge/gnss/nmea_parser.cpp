@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "edge/gnss/nmea_parser.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -11,6 +12,12 @@ namespace plumbline::gnss {
 namespace {
 
 constexpr std::chrono::microseconds kDay = std::chrono::hours(24);
+
+bool is_read(std::string_view type) {
+  constexpr std::array<std::string_view, 7> kTypes = {"GGA", "RMC", "GST", "VTG",
+                                                      "GNS", "ZDA", "EBP"};
+  return std::find(kTypes.begin(), kTypes.end(), type) != kTypes.end();
+}
 
 bool is_standard_talker(std::string_view address) {
   return address.size() == 5 && address[0] != 'P';
@@ -44,7 +51,10 @@ NmeaParser::NmeaParser(Sink sink, NmeaOptions options)
       options_(options),
       framer_([this](std::string_view body) { return take(body); }) {}
 
-void NmeaParser::flush() { close(); }
+void NmeaParser::flush() {
+  if (epoch_ && (epoch_->gga || epoch_->gns)) flushed_ = epoch_->time_of_day;
+  close();
+}
 
 void NmeaParser::finish() {
   framer_.finish();
@@ -52,16 +62,28 @@ void NmeaParser::finish() {
 }
 
 bool NmeaParser::take(std::string_view body) {
-  Fields fields = split(body, ",", false);
-  const std::string_view address = fields.front();
-  fields.erase(fields.begin());
+  const std::size_t comma = std::min(body.find(','), body.size());
+  const std::string_view address = body.substr(0, comma);
   if (!is_standard_talker(address)) return true;
   const std::string_view type = address.substr(2);
+  if (!is_read(type)) return true;
+  const Fields fields = split_fields(body.substr(std::min(comma + 1, body.size())));
   if (type == "GST") return take_gst(fields);
   if (type == "ZDA") return take_zda(fields);
   if (type == "VTG") return take_vtg(fields);
   if (type == "EBP") return take_ebp(fields);
   return take_place(type, fields);
+}
+
+// A sentence has at most 255 characters, and so no more fields than there is room for.
+Fields NmeaParser::split_fields(std::string_view text) {
+  std::size_t count = 0;
+  while (true) {
+    const std::size_t comma = text.find(',');
+    fields_[count++] = text.substr(0, comma);
+    if (comma == std::string_view::npos) return {fields_.data(), count};
+    text.remove_prefix(comma + 1);
+  }
 }
 
 bool NmeaParser::take_place(std::string_view type, const Fields& fields) {
@@ -78,6 +100,7 @@ bool NmeaParser::take_place(std::string_view type, const Fields& fields) {
 bool NmeaParser::take_gst(const Fields& fields) {
   const auto gst = read_gst(fields);
   if (!gst) return false;
+  note_time(gst->time_of_day);
   if (!gst->time_of_day || !gst->covariance_enu_m2) return true;
   gst_before_ =
       std::exchange(gst_, HeldGst{*gst->time_of_day, *gst->covariance_enu_m2, std::nullopt});
@@ -87,6 +110,7 @@ bool NmeaParser::take_gst(const Fields& fields) {
 bool NmeaParser::take_zda(const Fields& fields) {
   const auto zda = read_zda(fields);
   if (!zda) return false;
+  note_time(zda->time_of_day);
   learn_date(zda->time_of_day, zda->date);
   return true;
 }
@@ -105,14 +129,39 @@ bool NmeaParser::take_ebp(const Fields& fields) {
   return true;
 }
 
+// A sentence without a position is of the epoch of its time, or goes before it.
+void NmeaParser::note_time(const std::optional<TimeOfDay>& time) {
+  if (!time) return;
+  if (epoch_ && epoch_->time_of_day == time) {
+    epoch_->bytes.end = framer_.sentence_bytes().end;
+  } else if (!herald_ || herald_->time_of_day != *time) {
+    herald_ = Herald{*time, framer_.sentence_bytes().begin};
+  }
+}
+
+std::uint64_t NmeaParser::first_byte_of(const std::optional<TimeOfDay>& time) const {
+  const bool heralded = herald_ && time && herald_->time_of_day == *time;
+  return heralded ? herald_->begin : framer_.sentence_bytes().begin;
+}
+
+// Its epoch was handed out before the burst had ended.
+bool NmeaParser::is_late(const std::optional<TimeOfDay>& time) const {
+  return !epoch_ && time && flushed_ == time;
+}
+
 // A sentence of another time begins another epoch; without a time, so does one heard already.
 template <typename Sentence>
 bool NmeaParser::join(std::optional<Sentence> sentence, std::optional<Sentence> Epoch::*slot) {
   if (!sentence) return false;
+  if (is_late(sentence->time_of_day)) return true;
   const bool other_time = epoch_ && epoch_->time_of_day != sentence->time_of_day;
   const bool again = epoch_ && !sentence->time_of_day && ((*epoch_).*slot).has_value();
   if (other_time || again) close();
-  if (!epoch_) epoch_ = Epoch{sentence->time_of_day, {}, {}, {}};
+  if (!epoch_) {
+    epoch_ = Epoch{sentence->time_of_day, {}, {}, {}, {first_byte_of(sentence->time_of_day), 0}};
+    flushed_ = std::nullopt;
+  }
+  epoch_->bytes.end = framer_.sentence_bytes().end;
   (*epoch_).*slot = std::move(sentence);
   return true;
 }
@@ -131,6 +180,7 @@ void NmeaParser::close() {
   GnssFix fix = fix_of(epoch);
   fix.time = resolve(fix.time_of_day);
   fix.covariance_enu_m2 = covariance_for(fix);
+  epoch_bytes_ = epoch.bytes;
   ++framer_.counters().epochs;
   sink_(fix);
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <functional>
 #include <optional>
@@ -22,11 +23,11 @@ struct NmeaOptions {
 // Knows no port, clock or thread.
 //
 // All sentences of one time of day make one epoch, in any order; it is handed out when a sentence
-// of another time begins, or at flush(). Its position is that of GGA, else of GNS; RMC stands in
-// (without height) only until the first GGA or GNS was heard. Height above the ellipsoid is
-// altitude + separation, to the digit. Sigmas come from the GST of that time or a held one. The
-// date comes from RMC (status A) or ZDA and is carried on, across midnight too. An epoch of
-// quality 0 has no position, whatever stands in its fields.
+// of another time begins, or at flush(); what comes later of a time that was flushed adds nothing.
+// Its position is that of GGA, else of GNS; RMC stands in (without height) only until the first GGA
+// or GNS was heard. Height above the ellipsoid is altitude + separation, to the digit. Sigmas come
+// from the GST of that time or a held one. The date comes from RMC (status A) or ZDA and is carried
+// on, across midnight too. An epoch of quality 0 has no position, whatever stands in its fields.
 class NmeaParser {
  public:
   using Sink = std::function<void(const GnssFix&)>;
@@ -39,7 +40,10 @@ class NmeaParser {
   void flush();   // hands out the epoch begun: the burst is over
   void finish();  // the input ends here
 
-  const Counters& counters() const { return framer_.counters(); }
+  // Of the epoch being handed out: from the '$' of its first sentence to the end of its last.
+  ByteRange epoch_bytes() const { return epoch_bytes_; }
+
+  const DecoderCounters& counters() const { return framer_.counters(); }
   const std::optional<BasePosition>& base() const { return base_; }
   const std::optional<GroundVelocity>& ground_velocity() const { return ground_velocity_; }
 
@@ -49,6 +53,12 @@ class NmeaParser {
     std::optional<Gga> gga;
     std::optional<Gga> gns;
     std::optional<Rmc> rmc;
+    ByteRange bytes;
+  };
+  // The first sentence of a time that no epoch has begun with yet.
+  struct Herald {
+    TimeOfDay time_of_day{};
+    std::uint64_t begin = 0;
   };
   struct HeldGst {
     TimeOfDay time_of_day{};
@@ -63,6 +73,10 @@ class NmeaParser {
   bool take_vtg(const Fields& fields);
   bool take_ebp(const Fields& fields);
 
+  void note_time(const std::optional<TimeOfDay>& time);
+  Fields split_fields(std::string_view text);
+  bool is_late(const std::optional<TimeOfDay>& time) const;
+  std::uint64_t first_byte_of(const std::optional<TimeOfDay>& time) const;
   template <typename Sentence>
   bool join(std::optional<Sentence> sentence, std::optional<Sentence> Epoch::*slot);
   void learn_date(const std::optional<TimeOfDay>& time, std::optional<std::chrono::sys_days> date);
@@ -74,7 +88,11 @@ class NmeaParser {
   Sink sink_;
   NmeaOptions options_;
   NmeaFramer framer_;
+  std::array<std::string_view, 256> fields_;  // of the sentence at hand
   std::optional<Epoch> epoch_;
+  std::optional<TimeOfDay> flushed_;  // the time of an epoch that was not closed by another
+  std::optional<Herald> herald_;
+  ByteRange epoch_bytes_;
   bool gga_or_gns_heard_ = false;
   std::optional<UtcTime> last_time_;  // absolute; the next is within twelve hours of it
   std::optional<HeldGst> gst_;

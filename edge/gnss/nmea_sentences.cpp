@@ -15,8 +15,7 @@ constexpr double kKmh_m_s = 1.0 / 3.6;
 // Reads the fields of one sentence by index and remembers whether any of them was nonsense.
 class Reader {
  public:
-  Reader(const Fields& fields, std::size_t at_least)
-      : fields_(fields), ok_(fields.size() >= at_least) {}
+  Reader(Fields fields, std::size_t at_least) : fields_(fields), ok_(fields.size() >= at_least) {}
 
   bool ok() const { return ok_; }
 
@@ -83,7 +82,7 @@ class Reader {
     return value;
   }
 
-  const Fields& fields_;
+  Fields fields_;
   bool ok_;
 };
 

@@ -3,8 +3,8 @@
 
 #include <chrono>
 #include <optional>
+#include <span>
 #include <string_view>
-#include <vector>
 
 #include "edge/base/gnss_fix.h"
 
@@ -13,7 +13,7 @@ namespace plumbline::gnss {
 // The fields of one sentence each (NMEA 0183 4.11; EBP is Emlid's own). An empty field is an empty
 // optional. The readers take the fields after the address and return empty where they are too few
 // or any of them cannot be read: half a sentence is no sentence.
-using Fields = std::vector<std::string_view>;
+using Fields = std::span<const std::string_view>;
 using TimeOfDay = std::chrono::microseconds;
 
 struct Place {

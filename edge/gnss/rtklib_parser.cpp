@@ -2,6 +2,7 @@
 #include "edge/gnss/rtklib_parser.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -107,29 +108,75 @@ bool read_place(const Columns& columns, GnssFix& fix) {
          std::abs(*fix.latitude_deg) <= 90 && std::abs(*fix.longitude_deg) <= 360;
 }
 
+// The last byte that stands in no text, or npos.
+std::size_t find_last_binary(std::string_view line) {
+  const auto is_binary = [](char c) { return (c < ' ' || c > '~') && c != '\t' && c != '\r'; };
+  const auto last = std::find_if(line.rbegin(), line.rend(), is_binary);
+  return last == line.rend() ? std::string_view::npos
+                             : static_cast<std::size_t>(line.rend() - last) - 1;
+}
+
+// The line from its date on, where other bytes stand before it; empty where there is none.
+std::string_view from_date(std::string_view text) {
+  constexpr std::size_t kDigitsOfYear = 4;
+  const std::size_t slash = text.find('/');
+  if (slash == std::string_view::npos || slash < kDigitsOfYear) return {};
+  return text.substr(slash - kDigitsOfYear);
+}
+
 }  // namespace
 
 void RtklibParser::feed(std::string_view bytes) {
-  counters_.bytes += bytes.size();
-  for (const char c : bytes) {
-    if (c == '\n') {
-      end_line();
-    } else if (line_.size() <= kLongestLine) {
-      line_.push_back(c);
+  while (!bytes.empty()) {
+    const std::size_t length = bytes.find('\n');
+    if (length == std::string_view::npos) {
+      counters_.bytes += bytes.size();
+      keep(bytes);
+      return;
     }
+    counters_.bytes += length + 1;
+    if (!kept_.empty()) keep(bytes.substr(0, length));
+    end_line(kept_.empty() ? bytes.substr(0, length) : std::string_view(kept_));
+    kept_.clear();
+    bytes.remove_prefix(length + 1);
   }
 }
 
-void RtklibParser::finish() { end_line(); }
+void RtklibParser::finish() {
+  end_line(kept_);
+  kept_.clear();
+}
 
-void RtklibParser::end_line() {
-  const std::string line = std::exchange(line_, {});
-  if (line.find_first_not_of(kSeparators) == std::string::npos) return;
-  if (line[0] == '%') {
+void RtklibParser::begin_amid_a_line() {
+  kept_.clear();
+  amid_a_line_ = true;
+}
+
+// Of what is endless (a binary message without the byte of a line end) only the last is kept.
+void RtklibParser::keep(std::string_view part) {
+  kept_.append(part);
+  if (kept_.size() <= kLongestLine) return;
+  kept_.erase(0, kept_.size() - kLongestLine);
+  cut_off_ = true;
+}
+
+void RtklibParser::end_line(std::string_view line) {
+  const bool whole = !std::exchange(cut_off_, false);
+  if (std::exchange(amid_a_line_, false) && !line.starts_with('%')) return;
+  if (line.find_first_not_of(kSeparators) == std::string_view::npos) return;
+  if (line[0] == '%' && whole) {
     take_comment(line);
     return;
   }
   if (refusal_) return;
+  const std::string_view text = whole ? line : line.substr(1);
+  const std::size_t binary = find_last_binary(text);
+  const bool after_others = !whole || binary != std::string_view::npos;
+  take_solution(after_others ? from_date(text.substr(binary + 1)) : line);
+}
+
+void RtklibParser::take_solution(std::string_view line) {
+  if (line.empty()) return;
   const auto fix = line.size() <= kLongestLine ? read_line(line) : std::nullopt;
   if (!fix) {
     ++counters_.malformed;
@@ -137,6 +184,7 @@ void RtklibParser::end_line() {
   }
   ++counters_.sentences;
   ++counters_.epochs;
+  epoch_bytes_ = {counters_.bytes - line.size() - 1, counters_.bytes};
   sink_(*fix);
 }
 

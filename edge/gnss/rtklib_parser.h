@@ -6,9 +6,9 @@
 #include <string>
 #include <string_view>
 
+#include "edge/base/fix_decoder.h"
 #include "edge/base/gnss_fix.h"
 #include "edge/gnss/leap_seconds.h"
-#include "edge/gnss/nmea_framer.h"
 
 namespace plumbline::gnss {
 
@@ -25,6 +25,9 @@ namespace plumbline::gnss {
 //
 // Q 1 fix, 2 float, 3 SBAS, 4 DGPS, 5 single, 6 PPP becomes kFixed, kFloat, kDifferential,
 // kDifferential, kSingle, kFloat (PPP: ambiguities as real numbers).
+//
+// Binary messages between the lines pass by: a line begins behind them, with its date. A line has
+// no checksum: a byte that became another within a number is not noticed.
 class RtklibParser {
  public:
   using Sink = std::function<void(const GnssFix&)>;
@@ -34,8 +37,14 @@ class RtklibParser {
   void feed(std::string_view bytes);
   void finish();  // the input ends here, with or without a line end
 
+  // The bytes begin or go on amid a line: what is there of it is no line.
+  void begin_amid_a_line();
+
+  // Of the line being handed out.
+  ByteRange epoch_bytes() const { return epoch_bytes_; }
+
   // `sentences` are solution lines read, `malformed` lines that are neither such nor comments.
-  const Counters& counters() const { return counters_; }
+  const DecoderCounters& counters() const { return counters_; }
 
   bool time_system_named() const { return time_system_.has_value(); }
 
@@ -46,14 +55,19 @@ class RtklibParser {
  private:
   enum class TimeSystem { kGps, kUtc, kJapan };
 
-  void end_line();
+  void keep(std::string_view part);
+  void end_line(std::string_view line);
+  void take_solution(std::string_view line);
   void take_comment(std::string_view line);
   std::optional<GnssFix> read_line(std::string_view line) const;
   UtcTime utc_from(GpsCivilTime written) const;
 
   Sink sink_;
-  Counters counters_;
-  std::string line_;
+  DecoderCounters counters_;
+  std::string kept_;          // of a line begun in the calls before
+  bool cut_off_ = false;      // it lacks its beginning
+  bool amid_a_line_ = false;  // the next line end is that of a line not seen whole
+  ByteRange epoch_bytes_;
   std::optional<TimeSystem> time_system_;
   std::optional<std::string> refusal_;
 };

@@ -60,7 +60,7 @@ Json json_of(const GnssFix& fix) {
           {"age_s", or_null(fix.correction_age_s)}};
 }
 
-Json json_of(const gnss::Counters& counters) {
+Json json_of(const DecoderCounters& counters) {
   return {{"bytes", counters.bytes},
           {"sentences", counters.sentences},
           {"bad_checksum", counters.bad_checksum},
@@ -118,7 +118,7 @@ void print_table_head() {
               "height_m", "quality", "sig_e_m", "sig_n_m", "sig_u_m", "sats", "age_s");
 }
 
-void print_counters(const gnss::Counters& counters, bool json) {
+void print_counters(const DecoderCounters& counters, bool json) {
   if (json) {
     std::printf("%s\n", json_of(counters).dump().c_str());
     return;
@@ -205,7 +205,7 @@ Status show(const GnssArguments& arguments) {
     }
   });
   if (const Status read = pump(input.fd(), source, parser); !read) return read;
-  const gnss::Counters& counters = parser.counters();
+  const DecoderCounters& counters = parser.counters();
   if (counters.sentences == 0) {
     return Error{shown_name(source) + " " + parser.reason_for_nothing() + "."};
   }

@@ -22,7 +22,7 @@ bool named_as_events(const std::string& name) {
   return lower.find("event") != std::string::npos;
 }
 
-void warn_of_damage(const gnss::Counters& counters, GnssLog& log) {
+void warn_of_damage(const DecoderCounters& counters, GnssLog& log) {
   const auto damaged = counters.bad_checksum + counters.malformed;
   if (damaged == 0) return;
   log.warnings.push_back(in_quotes(log.name) + ": " + std::to_string(damaged) + " of " +

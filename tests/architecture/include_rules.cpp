@@ -175,6 +175,7 @@ std::vector<Violation> strayed_libraries(const SourceFile& file) {
 
 std::vector<Violation> impure_mathematics(const SourceFile& file) {
   if (!starts_with_any(file.path, {"edge/", "sim/"})) return {};
+  if (file.path.starts_with("sim/pty_port.")) return {};  // stands in for a device of the system
   std::vector<Violation> violations;
   for (const Include& include : includes_of(file.text)) {
     if (!include.quoted && starts_with_any(include.header, kImpureHeaders)) {

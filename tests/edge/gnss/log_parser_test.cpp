@@ -14,7 +14,7 @@ using std::chrono::milliseconds;
 struct Read {
   int fixes = 0;
   LogKind kind = LogKind::kUnknown;
-  Counters counters;
+  DecoderCounters counters;
   std::string reason;
 };
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <random>
 
 #include "edge/gnss/nmea_parser.h"
 #include "tests/edge/gnss/nmea_text.h"
+#include "tests/edge/gnss/says_nothing_wrong.h"
 
 namespace plumbline::gnss {
 namespace {
@@ -23,31 +23,6 @@ std::string sample() {
       "GPGGA,100000.20,3540.1234571,N,13945.7654377,E,4,16,1.0,52.545,M,38.123,M,1.4,0001");
   log += sentence("GPGST,100000.20,11.000,0.014,0.013,84.8,0.013,0.014,0.031");
   return log;
-}
-
-bool agrees(const std::optional<double>& value, const std::optional<double>& truth) {
-  return !value || (truth && *value == *truth);
-}
-
-// Says nothing that the undamaged fix does not say; sigmas may be the held ones of the other.
-bool says_nothing_wrong(const GnssFix& fix, const std::vector<GnssFix>& truth) {
-  const auto same = std::find_if(truth.begin(), truth.end(), [&](const GnssFix& t) {
-    return t.time_of_day == fix.time_of_day;
-  });
-  if (same == truth.end()) return !fix.latitude_deg.has_value();
-  const bool sigma_known =
-      !fix.covariance_enu_m2 || std::any_of(truth.begin(), truth.end(), [&](const GnssFix& t) {
-        return t.covariance_enu_m2 == fix.covariance_enu_m2;
-      });
-  // RMC stands in for a lost first GGA; its letter D means any corrected solution.
-  const bool quality_holds =
-      fix.quality == same->quality ||
-      (!fix.height_ellipsoidal_m && fix.quality == FixQuality::kDifferential);
-  return (!fix.time || fix.time == same->time) && quality_holds && sigma_known &&
-         agrees(fix.latitude_deg, same->latitude_deg) &&
-         agrees(fix.longitude_deg, same->longitude_deg) &&
-         agrees(fix.height_ellipsoidal_m, same->height_ellipsoidal_m) &&
-         agrees(fix.correction_age_s, same->correction_age_s);
 }
 
 TEST(NmeaParser, GivesNoWrongFixForAnyValueOfAnyOneByte) {

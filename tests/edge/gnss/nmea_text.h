@@ -22,7 +22,7 @@ inline std::string sentence(std::string_view body) {
 
 struct Parsed {
   std::vector<GnssFix> fixes;
-  Counters counters;
+  DecoderCounters counters;
   std::optional<BasePosition> base;
   std::optional<GroundVelocity> velocity;
 };

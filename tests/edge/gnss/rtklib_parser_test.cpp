@@ -10,7 +10,7 @@ namespace {
 
 struct Parsed {
   std::vector<GnssFix> fixes;
-  Counters counters;
+  DecoderCounters counters;
   std::optional<std::string> refusal;
   bool time_system_named = false;
 };
