@@ -228,8 +228,9 @@ ExposureTiming V4l2Session::timing_of(const v4l2_buffer& buffer, HostTime arriva
                        std::chrono::microseconds(buffer.timestamp.tv_usec));
   ExposureModel model{meaning_of(buffer, identity_.driver), period_, exposure_, options_.row_time,
                       layout_.height_px};
-  // A stamp that lies in the future or long ago is of another clock.
-  const bool sane = stamp <= arrival && arrival - stamp < std::chrono::seconds(10);
+  // A stamp far from now is of another clock. (Drivers that reckon it from a steady rate may be a
+  // little ahead.)
+  const bool sane = stamp < arrival + period_ && arrival - stamp < std::chrono::seconds(10);
   if (sane && model.meaning != StampMeaning::kArrival) return exposure_of(stamp, model);
   model.meaning = StampMeaning::kArrival;
   return exposure_of(arrival, model);

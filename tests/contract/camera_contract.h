@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,8 @@ class CameraEvents {
   std::vector<CameraNotice> notices() const;
   std::size_t count() const;  // of all events
   bool damaged() const;       // a frame whose image was not whole
-  bool disordered() const;    // sequence and frames lost did not add up, or time ran backwards
+  // Where sequence and frames lost did not add up, or time ran backwards; empty where nowhere.
+  std::string disorder() const;
 
  private:
   void check(const Frame& frame);
@@ -45,7 +47,7 @@ class CameraEvents {
   std::uint64_t lost_since_frame_ = 0;
   std::size_t count_ = 0;
   bool damaged_ = false;
-  bool disordered_ = false;
+  std::string disorder_;
 };
 
 // What a bench can do to its camera, beside letting it run.
@@ -73,11 +75,16 @@ class CameraBench {
   virtual void plug_in() = 0;
 };
 
+// Prints as its name in test output.
 struct NamedCameraBench {
   std::string name;  // letters only
   // nullptr where there is no such device; then `why_not` says what is missing.
   std::function<std::unique_ptr<CameraBench>()> make;
   std::string why_not;
+
+  friend std::ostream& operator<<(std::ostream& out, const NamedCameraBench& bench) {
+    return out << bench.name;
+  }
 };
 
 // The contract of drivers/camera.h as tests, for any bench.

@@ -30,7 +30,11 @@ void CameraEvents::check(const Frame& frame) {
   const Frame& last = frames_.back();
   const bool counted = frame.sequence == last.sequence + lost + 1;
   const bool forward = frame.timing.middle_of_row(0) > last.timing.middle_of_row(0);
-  disordered_ = disordered_ || !counted || !forward;
+  if (counted && forward) return;
+  const auto step = frame.timing.middle_of_row(0) - last.timing.middle_of_row(0);
+  disorder_ += "frame " + std::to_string(frame.sequence) + " after " +
+               std::to_string(last.sequence) + " with " + std::to_string(lost) + " lost, " +
+               std::to_string(step.count()) + " ns later; ";
 }
 
 void CameraEvents::add(CameraEvent event) {
@@ -81,9 +85,9 @@ bool CameraEvents::damaged() const {
   return damaged_;
 }
 
-bool CameraEvents::disordered() const {
+std::string CameraEvents::disorder() const {
   const std::lock_guard lock(mutex_);
-  return disordered_;
+  return disorder_;
 }
 
 }  // namespace plumbline::contract
