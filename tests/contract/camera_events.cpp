@@ -34,7 +34,9 @@ void CameraEvents::check(const Frame& frame) {
   const auto step = frame.timing.middle_of_row(0) - last.timing.middle_of_row(0);
   disorder_ += "frame " + std::to_string(frame.sequence) + " after " +
                std::to_string(last.sequence) + " with " + std::to_string(lost) + " lost, " +
-               std::to_string(step.count()) + " ns later; ";
+               std::to_string(step.count()) + " ns later (sigma " +
+               std::to_string(frame.timing.sigma.count()) + " after " +
+               std::to_string(last.timing.sigma.count()) + " ns); ";
 }
 
 void CameraEvents::add(CameraEvent event) {

@@ -5,11 +5,14 @@
 #include <cstdlib>
 #include <thread>
 
+#include "drivers/camera/camera_module.h"
 #include "drivers/camera/monotonic.h"
 #include "drivers/camera/v4l2_camera.h"
 
 namespace plumbline::contract {
 namespace {
+
+const std::string kLibcamera = "libcamera:";
 
 std::string from_environment(const char* name) {
   const char* value = std::getenv(name);
@@ -25,9 +28,9 @@ class KernelCameraBench : public CameraBench {
  public:
   explicit KernelCameraBench(std::string id) : id_(std::move(id)) {}
 
-  std::unique_ptr<Camera> camera() override { return std::make_unique<V4l2Camera>(id_); }
+  std::unique_ptr<Camera> camera() override { return camera_of(id_); }
   std::unique_ptr<Camera> missing_camera() override {
-    return std::make_unique<V4l2Camera>("/dev/video-that-is-not-there");
+    return camera_of(id_ + "-that-is-not-there");
   }
 
   CameraOptions options() override {
@@ -69,6 +72,19 @@ class KernelCameraBench : public CameraBench {
   void plug_in() override { EXPECT_TRUE(run("PLUMBLINE_TEST_CAMERA_REPLUG")); }
 
  private:
+  // "libcamera:" alone is the first that there is.
+  static std::unique_ptr<Camera> camera_of(const std::string& id) {
+    if (!id.starts_with(kLibcamera)) return std::make_unique<V4l2Camera>(id);
+    static const Result<CameraModule> module = CameraModule::load(camera_module_folders());
+    if (!module) {
+      ADD_FAILURE() << module.error().sentence;
+      return nullptr;
+    }
+    const std::string name = id.substr(kLibcamera.size());
+    const std::vector<std::string> found = module->list();
+    return module->make(name.empty() && !found.empty() ? found.front() : name);
+  }
+
   // By name, because the numbers of vivid's controls are in no header.
   bool set(const std::string& name, int value) {
     const V4l2Device device(id_);
