@@ -77,6 +77,8 @@ struct CameraOptions {
   bool fixed_exposure = false;  // exposure = longest_exposure whatever the light
   // Focus is locked: at this, or where it is.
   std::optional<double> lens_position_dioptre;
+  // Of a rolling shutter, from one row to the next, where the driver cannot know it; 0: global.
+  std::optional<std::chrono::nanoseconds> row_time;
 };
 
 struct CameraMode {

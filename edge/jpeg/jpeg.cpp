@@ -184,7 +184,7 @@ struct Encoder {
   jpeg_compress_struct info{};
   ErrorManager manager{};
   unsigned char* bytes = nullptr;
-  unsigned long size = 0;
+  unsigned long size_bytes = 0;
 
   Encoder() {
     init(manager);
@@ -197,23 +197,33 @@ struct Encoder {
   Encoder(const Encoder&) = delete;
   Encoder& operator=(const Encoder&) = delete;
 
-  void write(const Image& image, int quality) {
+  void begin(const JpegHeader& size, J_COLOR_SPACE colours, int quality) {
     jpeg_create_compress(&info);
-    jpeg_mem_dest(&info, &bytes, &size);
-    info.image_width = static_cast<JDIMENSION>(image.width_px);
-    info.image_height = static_cast<JDIMENSION>(image.height_px);
-    info.input_components = image.channels;
-    info.in_color_space = image.channels == 3 ? JCS_RGB : JCS_GRAYSCALE;
+    jpeg_mem_dest(&info, &bytes, &size_bytes);
+    info.image_width = static_cast<JDIMENSION>(size.width_px);
+    info.image_height = static_cast<JDIMENSION>(size.height_px);
+    info.input_components = size.channels;
+    info.in_color_space = colours;
     jpeg_set_defaults(&info);
     jpeg_set_quality(&info, quality, TRUE);
+  }
+
+  // `row_of(v)` hands out row v; nothing in it may need destroying while libjpeg runs.
+  template <typename RowOf>
+  void write_rows(const RowOf& row_of) {
     jpeg_start_compress(&info, TRUE);
     while (info.next_scanline < info.image_height) {
-      const std::uint8_t* start =
-          image.data.data() + image.index(0, static_cast<int>(info.next_scanline));
+      const std::uint8_t* start = row_of(static_cast<int>(info.next_scanline));
       JSAMPROW row = const_cast<JSAMPROW>(start);  // libjpeg does not write to it
       jpeg_write_scanlines(&info, &row, 1);
     }
     jpeg_finish_compress(&info);
+  }
+
+  void write(const Image& image, int quality) {
+    begin({image.width_px, image.height_px, image.channels},
+          image.channels == 3 ? JCS_RGB : JCS_GRAYSCALE, quality);
+    write_rows([&image](int v) { return image.data.data() + image.index(0, v); });
   }
 };
 
@@ -228,7 +238,25 @@ std::vector<std::uint8_t> encode(const Image& image, int quality) {
     std::abort();
   Encoder encoder;
   if (!guarded(encoder.manager, [&] { encoder.write(image, quality); })) std::abort();
-  return {encoder.bytes, encoder.bytes + encoder.size};
+  return {encoder.bytes, encoder.bytes + encoder.size_bytes};
+}
+
+std::vector<std::uint8_t> encode_ycbcr(const JpegHeader& size, ChromaSampling sampling, int quality,
+                                       const YcbcrRows& rows) {
+  if (size.width_px < 1 || size.height_px < 1 || size.channels != 3) std::abort();
+  std::vector<std::uint8_t> row(3 * static_cast<std::size_t>(size.width_px));
+  Encoder encoder;
+  const bool written = guarded(encoder.manager, [&] {
+    encoder.begin(size, JCS_YCbCr, quality);
+    encoder.info.comp_info[0].h_samp_factor = 2;
+    encoder.info.comp_info[0].v_samp_factor = sampling == ChromaSampling::kHalfBoth ? 2 : 1;
+    encoder.write_rows([&](int v) {
+      rows(v, row.data());
+      return row.data();
+    });
+  });
+  if (!written) std::abort();
+  return {encoder.bytes, encoder.bytes + encoder.size_bytes};
 }
 
 }  // namespace plumbline::jpeg

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,5 +39,16 @@ Result<Image> decode_rgb(std::span<const std::uint8_t> bytes, const std::string&
 // `image` has 1 or 3 channels and a size of 1..65500 px a side (anything else is a broken
 // invariant); quality 1..100 in libjpeg's sense. The same image gives the same bytes.
 std::vector<std::uint8_t> encode(const Image& image, int quality);
+
+// How many of the colour samples a JPEG keeps.
+enum class ChromaSampling { kHalfWidth, kHalfBoth };  // 4:2:2, 4:2:0
+
+// Writes row v of the image as Y Cb Cr of each pixel, in full range.
+using YcbcrRows = std::function<void(int v, std::uint8_t* row)>;
+
+// Encodes what a camera delivers as Y'CbCr without a detour through red, green and blue. Colours
+// that are the same in all pixels of a sample lose nothing to sampling. Size and quality as above.
+std::vector<std::uint8_t> encode_ycbcr(const JpegHeader& size, ChromaSampling sampling, int quality,
+                                       const YcbcrRows& rows);
 
 }  // namespace plumbline::jpeg

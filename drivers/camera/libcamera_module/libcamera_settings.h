@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "drivers/camera.h"
+#include "drivers/camera/libcamera_module/libcamera_compat.h"
+
+namespace plumbline {
+
+std::optional<PixelFormat> pixel_format_of(const libcamera::PixelFormat& format);
+
+// The modes of the still configuration: the sensor's full size among them.
+std::vector<CameraMode> modes_of(const libcamera::CameraConfiguration& configuration);
+
+// What is set before the first frame, and what cannot be had.
+struct LibcameraSettings {
+  libcamera::ControlList controls{libcamera::controls::controls};
+  std::vector<std::string> notices;
+  bool exposure_is_set = false;  // frames of pipelines that do not report it were exposed for this
+};
+LibcameraSettings settings_for(const libcamera::Camera& camera, const CameraOptions& options,
+                               std::optional<double> lens_position);
+
+// A new bound on exposure, in the manner of the settings above.
+void set_exposure(const libcamera::ControlInfoMap& offered, const CameraOptions& options,
+                  libcamera::ControlList& controls);
+
+std::vector<CameraControl> describe_controls(const libcamera::ControlInfoMap& offered);
+
+std::string model_of(const libcamera::Camera& camera);
+
+}  // namespace plumbline
