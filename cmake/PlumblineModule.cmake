@@ -10,6 +10,10 @@ add_library(plumbline_options INTERFACE)
 target_compile_options(plumbline_options INTERFACE -Wall -Wextra -Wconversion -Werror)
 # GCC 12 sees overlaps in "text" + std::string where there are none (GCC bug 105651).
 target_compile_options(plumbline_options INTERFACE -Wno-restrict)
+# And later ones take the inside of an empty std::optional for a value that is used (bug 80635).
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
+  target_compile_options(plumbline_options INTERFACE -Wno-maybe-uninitialized)
+endif()
 # The same recording gives the same result on every machine: no fused multiply-add by chance.
 target_compile_options(plumbline_options INTERFACE -ffp-contract=off)
 target_include_directories(plumbline_options INTERFACE ${PROJECT_SOURCE_DIR})
