@@ -7,11 +7,11 @@ namespace plumbline::sim {
 namespace {
 
 struct Lent {
-  Picture picture;
+  FramePixels picture;
   RawImage image;
   std::shared_ptr<int> count;
 
-  Lent(Picture pixels, std::shared_ptr<int> lent)
+  Lent(FramePixels pixels, std::shared_ptr<int> lent)
       : picture(std::move(pixels)), count(std::move(lent)) {
     image.format = picture.format;
     image.width_px = picture.width_px;
@@ -30,7 +30,7 @@ struct Lent {
 
 }  // namespace
 
-void CameraLink::deliver(HostTime now, Frame frame, Picture picture) {
+void CameraLink::deliver(HostTime now, Frame frame, FramePixels picture) {
   if (!has_free_buffer()) {
     lose();
     return;

@@ -12,7 +12,7 @@
 namespace plumbline::sim {
 
 // The pixels of a simulated frame.
-struct Picture {
+struct FramePixels {
   PixelFormat format = PixelFormat::kGrey;
   int width_px = 0;
   int height_px = 0;
@@ -28,7 +28,7 @@ class CameraLink {
 
   bool has_free_buffer() const { return *lent_ < buffers_; }
   void lose() { ++pending_lost_; }
-  void deliver(HostTime now, Frame frame, Picture picture);  // lost if no buffer is free
+  void deliver(HostTime now, Frame frame, FramePixels picture);  // lost if no buffer is free
   void report(HostTime now, CameraState state, const std::string& sentence);
   void notice(HostTime now, const std::string& sentence) { sink_(CameraNotice{now, sentence}); }
   std::optional<CameraState> state() const { return reported_; }

@@ -152,8 +152,8 @@ ExposureTiming SimCamera::stated(const ExposureTiming& exact) {
   return timing;
 }
 
-Picture SimCamera::picture_of(const ExposureTiming& exact) {
-  Picture picture;
+FramePixels SimCamera::picture_of(const ExposureTiming& exact) {
+  FramePixels picture;
   picture.format = options_.channels == 3 ? PixelFormat::kRgb24 : PixelFormat::kGrey;
   picture.width_px = options_.width_px;
   picture.height_px = options_.height_px;

@@ -64,7 +64,7 @@ class SimCamera : public Camera {
   void watch_for_silence();
   bool sees() const;
   ExposureTiming stated(const ExposureTiming& exact);
-  Picture picture_of(const ExposureTiming& exact);
+  FramePixels picture_of(const ExposureTiming& exact);
   void at(HostTime time, std::function<void()> action);
   std::chrono::nanoseconds gaussian(std::chrono::nanoseconds sigma);
 
