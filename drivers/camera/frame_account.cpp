@@ -10,7 +10,15 @@ namespace {
 // device's count is no count (some drivers leave it 0, or start it anew).
 constexpr std::uint32_t kLargestGap = 1000;
 
+// Frames can overtake each other only while both are in buffers.
+constexpr std::uint32_t kMostBuffers = 32;
+
 }  // namespace
+
+bool FrameAccount::is_late(std::uint32_t device_sequence) const {
+  const std::uint32_t behind = device_sequence_.value_or(device_sequence) - device_sequence;
+  return behind >= 1 && behind <= kMostBuffers;
+}
 
 FrameAccount::Counted FrameAccount::frame(std::uint32_t device_sequence, HostTime stamp) {
   const std::uint64_t lost = gap_before(device_sequence, stamp);

@@ -25,6 +25,10 @@ class FrameAccount {
   // The device will count anew: the next gap is judged by time.
   void restarted() { device_sequence_.reset(); }
 
+  // Whether it comes after one that was taken later, and has been counted as lost: uvcvideo, which
+  // copies frames on several processors, may complete two in the wrong order. Not to be handed out.
+  bool is_late(std::uint32_t device_sequence) const;
+
   // A frame to hand out. `stamp`: any instant that is the same in all frames (end, start).
   Counted frame(std::uint32_t device_sequence, HostTime stamp);
 

@@ -201,6 +201,7 @@ void V4l2Camera::hand_out(const v4l2_buffer& buffer, HostTime arrival) {
   const ExposureTiming timing = session_->timing_of(buffer, arrival);
   std::shared_ptr<const RawImage> image =
       session_->buffers().lend(buffer.index, buffer.bytesused, session_->layout());
+  if (account_.is_late(buffer.sequence)) return;
   const bool sound = (buffer.flags & V4L2_BUF_FLAG_ERROR) == 0 && check_layout(*image).ok();
   if (!sound) {
     watch_.damaged_frame();

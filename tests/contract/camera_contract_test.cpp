@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/contract/kernel_camera_bench.h"
+#include "tests/contract/simulated_camera_bench.h"
 
 namespace plumbline::contract {
 namespace {
@@ -24,7 +25,11 @@ NamedCameraBench kernel_camera() {
   return {"OfThisMachine", [id = std::string(id)] { return make_kernel_camera_bench(id); }, ""};
 }
 
-INSTANTIATE_TEST_SUITE_P(Camera, CameraContract, testing::Values(kernel_camera()), name_of);
+INSTANTIATE_TEST_SUITE_P(
+    Camera, CameraContract,
+    testing::Values(NamedCameraBench{"Simulated", make_simulated_camera_bench, ""},
+                    NamedCameraBench{"Replayed", make_replayed_camera_bench, ""}, kernel_camera()),
+    name_of);
 
 }  // namespace
 }  // namespace plumbline::contract

@@ -256,7 +256,8 @@ void LibcameraCamera::requeue(libcamera::Request* request) {
 void LibcameraCamera::hand_out(libcamera::Request* request) {
   const libcamera::FrameBuffer* buffer = session_->buffer_of(*request);
   const libcamera::FrameMetadata& taken = buffer->metadata();
-  if (request->status() == libcamera::Request::RequestCancelled) {
+  const bool cancelled = request->status() == libcamera::Request::RequestCancelled;
+  if (cancelled || account_.is_late(taken.sequence)) {
     requeue(request);
     return;
   }

@@ -159,7 +159,8 @@ std::vector<CameraControl> describe_controls(const libcamera::ControlInfoMap& of
 }
 
 std::string model_of(const libcamera::Camera& camera) {
-  return camera.properties().get(libcamera::properties::Model).value_or(camera.id());
+  const auto model = camera.properties().get(libcamera::properties::Model);
+  return model ? std::string(*model) : camera.id();  // a view since 0.5
 }
 
 }  // namespace plumbline

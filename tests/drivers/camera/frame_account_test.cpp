@@ -55,9 +55,20 @@ TEST(FrameAccount, CountsADamagedFrameAsLostWithThoseBeforeIt) {
   EXPECT_EQ(counted.sequence, 3u);
 }
 
+TEST(FrameAccount, KnowsAFrameThatWasOvertaken) {
+  FrameAccount account = of_ten_a_second();
+  account.frame(5, at_ms(0));
+  EXPECT_EQ(account.frame(7, at_ms(200)).lost_before, 1u);
+  EXPECT_TRUE(account.is_late(6));
+  EXPECT_FALSE(account.is_late(8));
+  account.restarted();
+  EXPECT_FALSE(account.is_late(6));
+}
+
 TEST(FrameAccount, CountsByTimeWhereTheDeviceDoesNotCount) {
   FrameAccount account = of_ten_a_second();
   account.frame(0, at_ms(0));
+  EXPECT_FALSE(account.is_late(0));
   EXPECT_EQ(account.frame(0, at_ms(110)).lost_before, 0u);
   EXPECT_EQ(account.frame(0, at_ms(400)).lost_before, 2u);
 }
