@@ -185,7 +185,6 @@ TEST_F(WrongUsage, EndsWithTwoAndOneSentence) {
   expect_refused({"orient"}, "CASE is required", 2);
   expect_refused({"plan"}, "--camera is required", 2);
   expect_refused({"sim"}, "OUT is required", 2);
-  expect_refused({"gnss"}, "required", 2);
 }
 
 TEST_F(WrongUsage, HelpOfEveryCommandHasAnExample) {

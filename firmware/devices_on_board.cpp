@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "firmware/devices_on_board.h"
+
+#include <charconv>
+#include <filesystem>
+
+#include "drivers/gnss/stream_receiver.h"
+#include "drivers/posix/file_stream.h"
+#include "drivers/posix/serial_port.h"
+#include "drivers/posix/serial_port_list.h"
+#include "drivers/posix/system_clock.h"
+#include "drivers/posix/tcp_stream.h"
+#include "edge/gnss/stream_decoder.h"
+
+namespace plumbline {
+namespace {
+
+using ReceiverResult = Result<std::unique_ptr<GnssReceiver>>;
+
+ReceiverResult receiver_on(std::unique_ptr<ByteStream> stream, const Clock& clock, int baud) {
+  return {std::make_unique<gnss_driver::StreamReceiver>(
+      std::move(stream), gnss::make_fix_decoder, clock,
+      gnss_driver::StreamReceiverOptions{.baud = baud})};
+}
+
+ReceiverResult receiver_on_host(const std::string& address, const Clock& clock) {
+  constexpr std::string_view kScheme = "tcp://";
+  const std::string place = address.substr(kScheme.size());
+  const std::size_t colon = place.rfind(':');
+  if (colon == std::string::npos || colon == 0 || colon + 1 == place.size()) {
+    return Error{"'" + address + "' names no host and port: write tcp://HOST:PORT."};
+  }
+  return receiver_on(
+      std::make_unique<posix::TcpStream>(place.substr(0, colon), place.substr(colon + 1)), clock,
+      0);
+}
+
+// The number after '@'; 0 where there is none, -1 where it is no number.
+int baud_of(const std::string& address) {
+  const std::size_t at = address.find('@');
+  if (at == std::string::npos) return 0;
+  int baud = -1;
+  const char* end = address.data() + address.size();
+  const auto read = std::from_chars(address.data() + at + 1, end, baud);
+  return read.ec == std::errc{} && read.ptr == end && baud > 0 ? baud : -1;
+}
+
+ReceiverResult receiver_on_port(const std::string& address, const Clock& clock) {
+  const int baud = baud_of(address);
+  auto port = std::make_unique<posix::SerialPort>(address.substr(0, address.find('@')));
+  if (baud < 0) {
+    return Error{"'" + address + "' names no speed after '@': write " + port->name() + "@115200."};
+  }
+  if (baud > 0) {
+    if (const Status speed = port->set_speed(baud); !speed) return speed.error();
+  }
+  return receiver_on(std::move(port), clock, baud);
+}
+
+}  // namespace
+
+std::unique_ptr<Clock> make_clock() { return std::make_unique<posix::SystemClock>(); }
+
+ReceiverResult make_receiver(const std::string& address, const Clock& clock) {
+  if (address.starts_with("tcp://")) return receiver_on_host(address, clock);
+  std::error_code error;
+  if (std::filesystem::is_regular_file(address, error)) {
+    return receiver_on(std::make_unique<posix::FileStream>(address), clock, 0);
+  }
+  if (!address.empty()) return receiver_on_port(address, clock);
+  return Error{"The receiver has no address: write a port, tcp://HOST:PORT or a log."};
+}
+
+std::vector<SerialPortInfo> list_serial_ports() { return posix::list_serial_ports(); }
+
+}  // namespace plumbline
