@@ -49,7 +49,7 @@ Status StreamReceiver::set_first_speed() {
     search_.emplace(speeds);
     return Done{};
   }
-  if (options_.baud != 0) speeds = {options_.baud};
+  if (options_.baud != 0) speeds.assign(1, options_.baud);
   const auto known = std::find(speeds.begin(), speeds.end(), baud_.load());
   if (known != speeds.end()) std::rotate(speeds.begin(), known, known + 1);
   baud_ = speeds.front();

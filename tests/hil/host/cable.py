@@ -56,10 +56,18 @@ class Monitor:
                 print(f"cable: {command}: {answer['error']['desc']}", file=sys.stderr, flush=True)
                 return
 
+    def wait_until_gone(self, device):
+        """device_del only asks for it; the port's other end is free when this has come."""
+        while True:
+            event = json.loads(self.stream.readline())
+            if event.get("event") == "DEVICE_DELETED" and event["data"].get("device") == device:
+                return
+
 
 def obey(line, monitor):
     if line == b"pull":
         monitor.run("device_del", id=PORT["id"])
+        monitor.wait_until_gone(PORT["id"])
     elif line == b"plug":
         monitor.run("device_add", **PORT)
     else:
