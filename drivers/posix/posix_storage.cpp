@@ -152,9 +152,9 @@ class PosixStorage : public Storage {
   Status sync_folder(const std::string& path) override {
     const auto folder = opened_folder("bring to the disk", path);
     if (!folder.status) return folder.status;
-    if (const int code = sync_of(folder.descriptor.get()))
-      return fault("bring to the disk", path, code);
-    return Done{};
+    const int code = sync_of(folder.descriptor.get());
+    if (code == 0 || code == EINVAL) return Done{};  // some file systems cannot sync a folder
+    return fault("bring to the disk", path, code);
   }
 
   Result<std::vector<std::string>> list(const std::string& path) override {
@@ -236,15 +236,10 @@ Result<std::unique_ptr<Storage>> open_storage(const std::string& folder) {
   return std::unique_ptr<Storage>(std::make_unique<PosixStorage>(std::move(root), folder));
 }
 
-// Numbers of statfs(2): MSDOS_SUPER_MAGIC, EXFAT_SUPER_MAGIC.
 std::optional<std::string> file_system_warning(const std::string& folder) {
-  constexpr long kFat = 0x4d44, kExFat = 0x2011BAB0;
   struct statfs state {};
   if (::statfs(folder.c_str(), &state) != 0) return std::nullopt;
-  if (state.f_type != kFat && state.f_type != kExFat) return std::nullopt;
-  return "'" + folder +
-         "' lies on a FAT file system, which a power cut can corrupt as a whole: format the card "
-         "with ext4.";
+  return file_system_warning(folder, state.f_type);
 }
 
 }  // namespace plumbline::posix
