@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "drivers/camera.h"
+#include "edge/base/result.h"
+
+namespace plumbline {
+
+// The real devices, each behind its seam. No other file of firmware/ knows what they are.
+
+// A camera by its id: a video device ("/dev/video0" or a link to one) or "libcamera:" and the id
+// that libcamera gives it. Fails where libcamera is asked for and cannot be had; whether the camera
+// is there is start()'s business.
+Result<std::unique_ptr<Camera>> make_camera(const std::string& id);
+
+struct CamerasOnBoard {
+  std::vector<CameraDescription> cameras;  // ids as make_camera() takes them, best first
+  std::vector<std::string> remarks;        // what may be missing from the list, and why
+};
+
+// libcamera's cameras first: behind V4L2 the same ones may be mere sensors without processing.
+CamerasOnBoard list_cameras();
+
+}  // namespace plumbline
