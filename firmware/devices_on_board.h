@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "drivers/byte_stream.h"
+#include "drivers/camera.h"
 #include "drivers/clock.h"
 #include "drivers/gnss_receiver.h"
 #include "edge/base/result.h"
@@ -22,5 +23,18 @@ std::unique_ptr<Clock> make_clock();
 Result<std::unique_ptr<GnssReceiver>> make_receiver(const std::string& address, const Clock& clock);
 
 std::vector<SerialPortInfo> list_serial_ports();
+
+// A camera by its id: a video device ("/dev/video0" or a link to one) or "libcamera:" and the id
+// that libcamera gives it. Fails where libcamera is asked for and cannot be had; whether the camera
+// is there is start()'s business.
+Result<std::unique_ptr<Camera>> make_camera(const std::string& id);
+
+struct CamerasOnBoard {
+  std::vector<CameraDescription> cameras;  // ids as make_camera() takes them, best first
+  std::vector<std::string> remarks;        // what may be missing from the list, and why
+};
+
+// libcamera's cameras first: behind V4L2 the same ones may be mere sensors without processing.
+CamerasOnBoard list_cameras();
 
 }  // namespace plumbline

@@ -5,7 +5,7 @@
 #include <unistd.h>
 
 #include <array>
-#include <optional>
+#include <cstdlib>
 
 namespace plumbline {
 namespace {
@@ -50,6 +50,8 @@ Result<CameraModule> CameraModule::load(const std::vector<std::string>& folders)
   for (const std::string& folder : folders) {
     const std::string path = folder + "/" + kCameraModuleFile;
     if (::access(path.c_str(), F_OK) != 0) continue;
+    // libcamera reads it while it is loaded; what it says below errors is of no use to a user.
+    ::setenv("LIBCAMERA_LOG_LEVELS", "*:ERROR", 0);
     void* library = ::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
     if (library == nullptr) return Error{why_not_loaded(path, ::dlerror())};
     const auto module = checked(library, path);

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <string>
 
+#include "firmware/commands/camera_command.h"
 #include "firmware/commands/gnss_command.h"
 #include "firmware/commands/measure_command.h"
 #include "firmware/commands/orient_command.h"
@@ -36,7 +37,7 @@ int wrong_usage(const CLI::App& app, const CLI::ParseError& wrong, int argc, cha
   if (command.empty() && argc > 1 && argv[1][0] != '-') {
     what = "There is no command '" + std::string(argv[1]) + "'";
   } else if (command.empty() && argc < 2) {
-    what = "A command is required: measure, orient, plan, sim or gnss";
+    what = "A command is required: measure, orient, plan, sim, gnss or camera";
   }
   std::replace(what.begin(), what.end(), '\n', ' ');
   std::cerr << "plumbline: " << what << "; see plumbline " << command << "--help.\n";
@@ -56,6 +57,7 @@ int parse_and_run(int argc, char** argv) {
   add_plan(app, status);
   add_sim(app, status);
   add_gnss(app, status);
+  add_camera(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

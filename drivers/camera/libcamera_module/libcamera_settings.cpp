@@ -106,9 +106,9 @@ std::vector<CameraMode> modes_of(const libcamera::CameraConfiguration& configura
   return modes;
 }
 
-void set_exposure(const libcamera::ControlInfoMap& offered, const CameraOptions& options,
+bool set_exposure(const libcamera::ControlInfoMap& offered, const CameraOptions& options,
                   libcamera::ControlList& list) {
-  if (!offers(offered, controls::ExposureTime)) return;
+  if (!offers(offered, controls::ExposureTime)) return true;
   const bool both = options.fixed_gain.has_value() || options.fixed_exposure;
   const bool exposure_only = !both && compat::hold_exposure_only(offered, list);
   if (!exposure_only && offers(offered, controls::AeEnable)) list.set(controls::AeEnable, false);
@@ -122,6 +122,7 @@ void set_exposure(const libcamera::ControlInfoMap& offered, const CameraOptions&
   if (options.fixed_gain && offers(offered, controls::AnalogueGain)) {
     list.set(controls::AnalogueGain, static_cast<float>(*options.fixed_gain));
   }
+  return both || exposure_only;
 }
 
 LibcameraSettings settings_for(const libcamera::Camera& camera, const CameraOptions& options,
@@ -132,9 +133,12 @@ LibcameraSettings settings_for(const libcamera::Camera& camera, const CameraOpti
   compat::turn_off_hdr(offered, settings.controls);
   lock_focus(offered, options, lens_position, settings);
   set_rate(offered, options, settings);
-  set_exposure(offered, options, settings.controls);
-  settings.exposure_is_set = offers(offered, controls::ExposureTime);
-  if (!settings.exposure_is_set) {
+  if (!set_exposure(offered, options, settings.controls)) {
+    settings.notices.push_back(
+        "The camera cannot suit its gain to the light while its exposure is limited: brightness "
+        "is as the exposure makes it.");
+  }
+  if (!offers(offered, controls::ExposureTime)) {
     settings.notices.push_back(
         "The camera cannot limit its exposure: photos may blur, and their time is less certain.");
   }

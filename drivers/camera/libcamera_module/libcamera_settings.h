@@ -19,13 +19,13 @@ std::vector<CameraMode> modes_of(const libcamera::CameraConfiguration& configura
 struct LibcameraSettings {
   libcamera::ControlList controls{libcamera::controls::controls};
   std::vector<std::string> notices;
-  bool exposure_is_set = false;  // frames of pipelines that do not report it were exposed for this
 };
 LibcameraSettings settings_for(const libcamera::Camera& camera, const CameraOptions& options,
                                std::optional<double> lens_position);
 
-// A new bound on exposure, in the manner of the settings above.
-void set_exposure(const libcamera::ControlInfoMap& offered, const CameraOptions& options,
+// A new bound on exposure, in the manner of the settings above. False where the gain, which nobody
+// fixed, cannot follow the light with it.
+bool set_exposure(const libcamera::ControlInfoMap& offered, const CameraOptions& options,
                   libcamera::ControlList& controls);
 
 std::vector<CameraControl> describe_controls(const libcamera::ControlInfoMap& offered);
