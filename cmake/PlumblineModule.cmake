@@ -9,7 +9,7 @@ set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 add_library(plumbline_options INTERFACE)
 target_compile_options(plumbline_options INTERFACE -Wall -Wextra -Wconversion -Werror)
 # GCC 12 sees overlaps in "text" + std::string where there are none (GCC bug 105651).
-target_compile_options(plumbline_options INTERFACE -Wno-restrict)
+target_compile_options(plumbline_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 # And later ones take the inside of an empty std::optional for a value that is used (bug 80635).
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_GREATER_EQUAL 13)
   target_compile_options(plumbline_options INTERFACE -Wno-maybe-uninitialized)
@@ -20,6 +20,12 @@ target_include_directories(plumbline_options INTERFACE ${PROJECT_SOURCE_DIR})
 if(PLUMBLINE_SANITIZE)
   target_compile_options(plumbline_options INTERFACE -fsanitize=address,undefined
                                                     -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(plumbline_options INTERFACE -fsanitize=address,undefined)
+endif()
+
+if(PLUMBLINE_FUZZ)
+  set(FUZZ_FLAGS -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all)
+  target_compile_options(plumbline_options INTERFACE ${FUZZ_FLAGS})
   target_link_options(plumbline_options INTERFACE -fsanitize=address,undefined)
 endif()
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "edge/gnss/log_parser.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace plumbline::gnss {
@@ -10,7 +11,16 @@ LogParser::LogParser(Sink sink)
       nmea_([this](const GnssFix& fix) { hand_on(LogKind::kNmea, fix); }),
       rtklib_([this](const GnssFix& fix) { hand_on(LogKind::kRtklib, fix); }) {}
 
+// Until one of them has decided, both get the bytes in step: which is first must not depend on the
+// pieces in which they come. An epoch is handed out at the end of a line or the begin of a
+// sentence.
 void LogParser::feed(std::string_view bytes) {
+  while (kind_ == LogKind::kUnknown && !bytes.empty()) {
+    const std::size_t end = std::min(bytes.find_first_of("\r\n$"), bytes.size() - 1);
+    nmea_.feed(bytes.substr(0, end + 1));
+    if (kind_ != LogKind::kNmea) rtklib_.feed(bytes.substr(0, end + 1));
+    bytes.remove_prefix(end + 1);
+  }
   if (kind_ != LogKind::kRtklib) nmea_.feed(bytes);
   if (kind_ != LogKind::kNmea) rtklib_.feed(bytes);
 }

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+#include "sim/sim_receiver.h"
+
+#include <utility>
+
+namespace plumbline::sim {
+
+SimReceiver::SimReceiver(VirtualClock& clock, MakeFixDecoder make_decoder, std::string name)
+    : clock_(clock), make_decoder_(std::move(make_decoder)), name_(std::move(name)) {}
+
+SimReceiver::~SimReceiver() { SimReceiver::stop(); }
+
+Status SimReceiver::start(Sink sink) {
+  if (run_) return Error{name_ + " is being read already: stop it first."};
+  run_ = std::shared_ptr<Run>(new Run{{make_decoder_, std::move(sink)}});
+  run_->watch.set_name(name_);
+  // The sink is not called before start() has returned.
+  clock_.at(clock_.now(), [this, run = std::weak_ptr(run_)] {
+    if (run.expired()) return;
+    in_ ? run_->watch.opened(clock_.now()) : run_->watch.absent(clock_.now(), absence());
+    schedule_look();
+  });
+  return Done{};
+}
+
+void SimReceiver::stop() {
+  if (!run_) return;
+  run_->watch.cut(clock_.now());
+  counters_ = run_->watch.counters();
+  run_.reset();
+}
+
+ReceiverCounters SimReceiver::counters() const { return run_ ? run_->watch.counters() : counters_; }
+
+void SimReceiver::plug_in() {
+  in_ = true;
+  if (!run_) return;
+  run_->watch.opened(clock_.now());
+  schedule_look();
+}
+
+void SimReceiver::pull() {
+  in_ = false;
+  if (run_) run_->watch.absent(clock_.now(), absence());
+}
+
+void SimReceiver::send(std::string_view bytes) {
+  if (!run_ || !in_) return;
+  run_->watch.bytes(clock_.now(), bytes);
+  schedule_look();
+}
+
+void SimReceiver::schedule_look() {
+  const HostTime due = run_->watch.due(clock_.now());
+  if (due >= run_->look_at) return;
+  run_->look_at = due;
+  clock_.at(due, [this, weak = std::weak_ptr(run_)] {
+    const auto run = weak.lock();
+    if (!run) return;
+    run->look_at = HostTime::max();
+    run->watch.look(clock_.now());
+    schedule_look();
+  });
+}
+
+std::string SimReceiver::absence() const {
+  return name_ + " is pulled out: it is taken up as soon as it is back.";
+}
+
+}  // namespace plumbline::sim
