@@ -68,6 +68,17 @@ int read_all(int fd, std::string& out) {
   }
 }
 
+// At the end and at a fault readdir() returns the same; only errno tells a list from half of one.
+int read_names(DIR* stream, std::vector<std::string>& names) {
+  while (true) {
+    errno = 0;
+    const dirent* entry = ::readdir(stream);
+    if (entry == nullptr) return errno;
+    const std::string name(entry->d_name);
+    if (name != "." && name != "..") names.push_back(name);
+  }
+}
+
 // fsync is not tried again when it fails: the second would succeed without the lost pages.
 int sync_of(int fd) { return ::fsync(fd) == 0 ? 0 : errno; }
 
@@ -164,11 +175,9 @@ class PosixStorage : public Storage {
     DIR* stream = fd < 0 ? nullptr : ::fdopendir(fd);
     if (stream == nullptr) return fault("list", path, errno);
     std::vector<std::string> names;
-    while (const dirent* entry = ::readdir(stream)) {
-      const std::string name(entry->d_name);
-      if (name != "." && name != "..") names.push_back(name);
-    }
+    const int code = read_names(stream, names);
     ::closedir(stream);
+    if (code != 0) return fault("list", path, code);
     std::sort(names.begin(), names.end());
     return names;
   }
