@@ -54,9 +54,9 @@ void SimReceiver::schedule_look() {
   const HostTime due = run_->watch.due(clock_.now());
   if (due >= run_->look_at) return;
   run_->look_at = due;
-  clock_.at(due, [this, weak = std::weak_ptr(run_)] {
+  clock_.at(due, [this, due, weak = std::weak_ptr(run_)] {
     const auto run = weak.lock();
-    if (!run) return;
+    if (!run || run->look_at != due) return;  // one that is due earlier took its place
     run->look_at = HostTime::max();
     run->watch.look(clock_.now());
     schedule_look();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <functional>
 #include <map>
 #include <utility>
@@ -28,6 +29,8 @@ class VirtualClock : public Clock {
   // for more.
   void at(HostTime time, Action action);
   void after(std::chrono::nanoseconds delay, Action action) { at(now_ + delay, std::move(action)); }
+
+  std::size_t pending() const { return actions_.size(); }  // actions still to come
 
   // Lives through everything up to and at `time`.
   void run_until(HostTime time);
