@@ -38,7 +38,7 @@ bool ClockFit::add(GpsTime epoch, HostTime first_byte) {
   return false;
 }
 
-std::optional<GnssClock> ClockFit::now_estimate() const {
+std::optional<GnssClock> ClockFit::estimate() const {
   if (!clock_ || used_since_start_ < kLeastToEstimate) return std::nullopt;
   GnssClock clock = *clock_;
   clock.host -= options_.latency.value;

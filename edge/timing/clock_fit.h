@@ -59,7 +59,7 @@ class ClockFit {
   bool add(GpsTime epoch, HostTime first_byte);
 
   // Empty before the first epochs; valid about the last epoch, with a sigma that grows after it.
-  std::optional<GnssClock> now_estimate() const;
+  std::optional<GnssClock> estimate() const;
 
   const ClockFitSummary& summary() const { return summary_; }
 

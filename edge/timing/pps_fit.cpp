@@ -189,7 +189,7 @@ PpsState PpsFit::state(const std::optional<GnssClock>& coarse) const {
   return possible ? PpsState::kLocked : PpsState::kWrongEdge;
 }
 
-std::optional<GnssClock> PpsFit::now_estimate(const std::optional<GnssClock>& coarse) const {
+std::optional<GnssClock> PpsFit::estimate(const std::optional<GnssClock>& coarse) const {
   if (state(coarse) != PpsState::kLocked) return std::nullopt;
   GnssClock clock;
   clock.host = line_->last - delay();

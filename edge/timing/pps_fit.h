@@ -58,7 +58,7 @@ class PpsFit {
 
   // The clock, numbered with the help of `coarse`, which has sigma_latency of an assumption; then
   // its own common sigma is that of the interrupt. Empty unless state() is kLocked.
-  std::optional<GnssClock> now_estimate(const std::optional<GnssClock>& coarse) const;
+  std::optional<GnssClock> estimate(const std::optional<GnssClock>& coarse) const;
   PpsState state(const std::optional<GnssClock>& coarse) const;
 
   // The receiver's least latency as measured against the pulses. Empty unless there are pulses that

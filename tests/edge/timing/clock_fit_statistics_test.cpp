@@ -43,7 +43,7 @@ Figures figures_of(const ArrivalSetting& setting, double at_s, int flights) {
     const auto epochs = simulated_epochs(own, random);
     ClockFit fit;
     for (const SimulatedEpoch& epoch : epochs) fit.add(epoch.epoch, epoch.arrival);
-    const auto clock = fit.now_estimate();
+    const auto clock = fit.estimate();
     if (!clock) continue;
     const auto host = clock->host_of(epochs.back().epoch);
     figures.add(as_seconds(host.time - epochs.back().truth), as_seconds(host.sigma_fit));

@@ -16,7 +16,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 double error_s(const ClockFit& fit, const SimulatedEpoch& at) {
-  return as_seconds(fit.now_estimate()->host_of(at.epoch).time - at.truth);
+  return as_seconds(fit.estimate()->host_of(at.epoch).time - at.truth);
 }
 
 std::vector<SimulatedEpoch> epochs_of(const ArrivalSetting& setting, std::uint64_t seed) {
@@ -73,13 +73,13 @@ TEST(LowerEnvelope, LiesJustBelowTheBestOfAllLinesUnderThePoints) {
 
 TEST(ClockFit, HasNothingToSayBeforeThreeEpochs) {
   ClockFit fit;
-  EXPECT_FALSE(fit.now_estimate());
+  EXPECT_FALSE(fit.estimate());
   const auto epochs = epochs_of({}, 1);
   fit.add(epochs[0].epoch, epochs[0].arrival);
   fit.add(epochs[1].epoch, epochs[1].arrival);
-  EXPECT_FALSE(fit.now_estimate());
+  EXPECT_FALSE(fit.estimate());
   fit.add(epochs[2].epoch, epochs[2].arrival);
-  EXPECT_TRUE(fit.now_estimate());
+  EXPECT_TRUE(fit.estimate());
 }
 
 TEST(ClockFit, KeepsTheSigmaOfTheLeastLatencyApart) {
@@ -88,7 +88,7 @@ TEST(ClockFit, KeepsTheSigmaOfTheLeastLatencyApart) {
   ClockFit fit(options);
   const auto epochs = epochs_of({}, 2);
   for (const auto& e : epochs) fit.add(e.epoch, e.arrival);
-  const auto host = fit.now_estimate()->host_of(epochs.back().epoch);
+  const auto host = fit.estimate()->host_of(epochs.back().epoch);
   EXPECT_EQ(host.sigma_latency, milliseconds(7));
   EXPECT_LT(host.sigma_fit, milliseconds(5));
   // The receiver's least latency is 80 ms, so the clock is early by what was assumed too much.
@@ -106,7 +106,7 @@ TEST(ClockFit, FollowsACrystalThatWarmsUp) {
     const GpsTime epoch = kGpsStart + of_seconds(t);
     fit.add(epoch, truth + of_seconds(late_s));
     if (k % 500 != 499) continue;
-    const auto host = fit.now_estimate()->host_of(epoch);
+    const auto host = fit.estimate()->host_of(epoch);
     EXPECT_LT(std::abs(as_seconds(host.time - truth)), 5e-3) << t;
   }
 }
@@ -120,7 +120,7 @@ TEST(ClockFit, GoesOnAcrossAGapOfTenMinutes) {
     const auto since = e.epoch - kGpsStart;
     if (since < seconds(300) || since > seconds(900)) fit.add(e.epoch, e.arrival);
     if (since == seconds(899)) {
-      const auto host = fit.now_estimate()->host_of(e.epoch);
+      const auto host = fit.estimate()->host_of(e.epoch);
       EXPECT_LT(std::abs(as_seconds(host.time - e.truth)), 3 * as_seconds(host.sigma_fit));
       EXPECT_LT(host.sigma_fit, milliseconds(5));
     }
@@ -177,7 +177,7 @@ TEST_P(ReceiverStep, IsFoundToldAndFollowed) {
   EXPECT_EQ(told, 1);
   EXPECT_LT(told_at - kGpsStart, seconds(312));
   EXPECT_NEAR(as_seconds(fit.summary().last_step), -GetParam(), 0.05);
-  const auto host = fit.now_estimate()->host_of(epochs.back().epoch + jump);
+  const auto host = fit.estimate()->host_of(epochs.back().epoch + jump);
   EXPECT_LT(std::abs(as_seconds(host.time - epochs.back().truth)), 3e-3);
 }
 
@@ -207,7 +207,7 @@ TEST(ClockFit, BeginsAnewAfterTheHostSlept) {
     if (since > seconds(140)) fit.add(e.epoch, e.arrival - slept);
   }
   EXPECT_EQ(fit.summary().steps, 1u);
-  EXPECT_LT(std::abs(as_seconds(fit.now_estimate()->host_of(epochs.back().epoch).time -
+  EXPECT_LT(std::abs(as_seconds(fit.estimate()->host_of(epochs.back().epoch).time -
                                 (epochs.back().truth - slept))),
             3e-3);
 }
@@ -224,7 +224,7 @@ TEST(ClockFit, SaysThatRoundedTimeStampsAreLessCertain) {
     last = kGpsStart + std::chrono::round<std::chrono::duration<std::int64_t, std::centi>>(since);
     fit.add(last, truth + of_seconds(0.08 + sim::jitter_s(sim::JitterLaw::kExponential, random)));
   }
-  const auto host = fit.now_estimate()->host_of(kGpsStart + (truth - kHostStart));
+  const auto host = fit.estimate()->host_of(kGpsStart + (truth - kHostStart));
   EXPECT_GE(host.sigma_fit, milliseconds(3));
   EXPECT_LT(std::abs(as_seconds(host.time - truth)), 5e-3);
 }

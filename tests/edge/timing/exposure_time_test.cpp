@@ -87,7 +87,9 @@ TEST_P(StampKind, CoversWhatIsNotKnownByItsSigma) {
       const double rms_s = std::sqrt(sum2 / kFrames);
       EXPECT_NEAR(rms_s / sigma_s, 1, 0.05) << exposure_known << row_time_known;
       EXPECT_LE(std::abs(sum / kFrames), 4 * sigma_s / std::sqrt(kFrames));
-      if (exposure_known && row_time_known) EXPECT_LE(rms_s, 1e-3);
+      if (exposure_known && row_time_known) {
+        EXPECT_LE(rms_s, 1e-3);
+      }
     }
   }
 }

@@ -75,7 +75,7 @@ TEST(PpsFit, KnowsTheClockToFiftyMicrosecondsWithASigmaThatCovers) {
       setting.jitter_s = jitter_s;
       setting.duration_s = 60;
       const Flight flight = flown(setting, seed);
-      const auto clock = flight.pps.now_estimate(flight.coarse.now_estimate());
+      const auto clock = flight.pps.estimate(flight.coarse.estimate());
       ASSERT_TRUE(clock) << seed;
       const auto host = clock->host_of(flight.end);
       const double error_s = as_seconds(host.time - flight.end_truth);
@@ -96,26 +96,26 @@ TEST(PpsFit, KnowsTheClockToFiftyMicrosecondsWithASigmaThatCovers) {
 
 TEST(PpsFit, MeasuresTheLatencyThatArrivalsCannotTell) {
   const Flight flight = flown({}, 1);
-  const auto latency = flight.pps.measured_latency(flight.coarse.now_estimate());
+  const auto latency = flight.pps.measured_latency(flight.coarse.estimate());
   ASSERT_TRUE(latency);
   EXPECT_NEAR(as_seconds(*latency), 0.080, 0.003);
 }
 
 TEST(PpsFit, SaysWhatIsMissingUntilItIsLocked) {
   PpsFit pps;
-  const auto coarse = flown({}, 2).coarse.now_estimate();
+  const auto coarse = flown({}, 2).coarse.estimate();
   EXPECT_EQ(pps.state(coarse), PpsState::kNoPulses);
   for (int k = 0; k < 5; ++k) pps.add_edge(kHostStart + seconds(k));
   EXPECT_EQ(pps.state(std::nullopt), PpsState::kUnnumbered);
-  EXPECT_FALSE(pps.now_estimate(std::nullopt));
+  EXPECT_FALSE(pps.estimate(std::nullopt));
 }
 
 TEST(PpsFit, FindsThatTheOtherEdgeOfThePulseIsStamped) {
   PulseSetting setting;
   setting.edge_after_s = 0.1;
   const Flight flight = flown(setting, 3);
-  EXPECT_EQ(flight.pps.state(flight.coarse.now_estimate()), PpsState::kWrongEdge);
-  EXPECT_FALSE(flight.pps.now_estimate(flight.coarse.now_estimate()));
+  EXPECT_EQ(flight.pps.state(flight.coarse.estimate()), PpsState::kWrongEdge);
+  EXPECT_FALSE(flight.pps.estimate(flight.coarse.estimate()));
 }
 
 TEST(PpsFit, KeepsCountAcrossMissingPulses) {
@@ -139,11 +139,10 @@ TEST(PpsFit, BeginsAnewWhereThePulsesGoOnElsewhere) {
   coarse.host = kHostStart + milliseconds(300);
   coarse.gps = kGpsStart;
   coarse.latency = milliseconds(80);
-  ASSERT_TRUE(pps.now_estimate(coarse));
+  ASSERT_TRUE(pps.estimate(coarse));
   const HostTime last = kHostStart + seconds(59) + milliseconds(300);
-  EXPECT_LT(
-      std::abs((pps.now_estimate(coarse)->host_of(kGpsStart + seconds(59)).time - last).count()),
-      10000);
+  EXPECT_LT(std::abs((pps.estimate(coarse)->host_of(kGpsStart + seconds(59)).time - last).count()),
+            10000);
 }
 
 TEST(PpsFit, DoesNotLockToNoise) {
