@@ -11,24 +11,12 @@
 #include <variant>
 #include <vector>
 
+#include "edge/base/exposure_timing.h"
 #include "edge/base/raw_image.h"
 #include "edge/base/result.h"
 #include "edge/base/time.h"
 
 namespace plumbline {
-
-// When light fell on a frame. Row r was exposed from `first_row_start + r * row_time` for
-// `exposure`. `sigma` is one standard deviation of the exposure's middle; what the driver cannot
-// know (a webcam's exposure, a delay inside the camera) is in it.
-struct ExposureTiming {
-  HostTime first_row_start;
-  std::chrono::nanoseconds exposure{};
-  std::chrono::nanoseconds row_time{};  // 0: global shutter, or not known (then in sigma)
-  std::chrono::nanoseconds sigma{};
-
-  // Middle of the exposure of a row, counted from the top, halves allowed.
-  HostTime middle_of_row(double row) const;
-};
 
 // One frame, at the full resolution of the stream. Its buffer is lent: the driver has only a few,
 // and drops frames (and counts them) while all are held. Copy or release within a frame or two.

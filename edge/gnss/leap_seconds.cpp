@@ -39,4 +39,21 @@ GpsCivilTime gps_time_of(int week, std::chrono::microseconds time_of_week) {
   return kGpsEpoch + std::chrono::weeks(week) + time_of_week;
 }
 
+UtcTime utc_of(GpsTime gps) {
+  const auto rounded = std::chrono::round<std::chrono::microseconds>(gps.time_since_epoch());
+  return utc_of(kGpsEpoch + rounded);
+}
+
+std::optional<GpsTime> gps_of(UtcTime utc) {
+  constexpr UtcTime kFirst{kGpsEpoch.time_since_epoch()};
+  constexpr UtcTime kLast{
+      local_days(year(2262) / month(1) / std::chrono::day(1)).time_since_epoch()};
+  if (utc < kFirst || utc >= kLast) return std::nullopt;
+  std::chrono::seconds ahead{0};
+  for (const local_days day : kLeapDays) {
+    if (utc.time_since_epoch() >= day.time_since_epoch()) ahead += std::chrono::seconds(1);
+  }
+  return GpsTime(utc - kFirst + ahead);
+}
+
 }  // namespace plumbline::gnss

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "drivers/camera.h"
+#include "edge/base/exposure_timing.h"
 
 #include <cmath>
 

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+#include "edge/timing/clock_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "edge/timing/envelope.h"
+
+namespace plumbline::timing {
+namespace {
+
+constexpr std::size_t kMostDoubtful = 64;
+constexpr std::uint64_t kLeastToEstimate = 3;
+
+nanoseconds from_seconds(double seconds) { return nanoseconds(std::llround(seconds * 1e9)); }
+
+double in_seconds(nanoseconds duration) { return std::chrono::duration<double>(duration).count(); }
+
+}  // namespace
+
+ClockFit::ClockFit(const ClockFitOptions& options) : options_(options) {}
+
+bool ClockFit::add(GpsTime epoch, HostTime first_byte) {
+  const Arrival arrival{epoch, first_byte};
+  ++summary_.epochs;
+  const nanoseconds after_floor = behind(arrival);
+  const nanoseconds bound = tolerance(arrival);
+  if (after_floor > bound || after_floor < -bound) return doubt(arrival, after_floor > bound);
+  doubtful_.clear();
+  summary_.in_doubt = false;
+  if (!earliest_.empty() && epoch <= newest_) {
+    ++summary_.repeated;
+    return false;
+  }
+  use(arrival);
+  return false;
+}
+
+std::optional<GnssClock> ClockFit::estimate() const {
+  if (!clock_ || used_since_start_ < kLeastToEstimate) return std::nullopt;
+  GnssClock clock = *clock_;
+  clock.host -= options_.latency.value;
+  clock.latency = options_.latency.value;
+  clock.sigma_latency = options_.latency.sigma;
+  if (last_rounded_ && newest_ - *last_rounded_ < options_.window) {
+    // Rounding that varies lowers the floor by its half, one that is constant shifts it by anything
+    // up to that: between the two.
+    clock.host += options_.rounding / 4;
+    const double sigma_s = in_seconds(options_.rounding) / 3;
+    clock.variance_s2 += sigma_s * sigma_s;
+  }
+  return clock;
+}
+
+nanoseconds ClockFit::behind(const Arrival& arrival) const {
+  return clock_ ? arrival.host - clock_->host_of(arrival.epoch).time : nanoseconds(0);
+}
+
+nanoseconds ClockFit::tolerance(const Arrival& arrival) const {
+  return clock_ ? options_.step + 3 * clock_->host_of(arrival.epoch).sigma_fit : options_.step;
+}
+
+void ClockFit::use(const Arrival& arrival) {
+  ++summary_.used;
+  ++used_since_start_;
+  newest_ = arrival.epoch;
+  const bool rounded = arrival.epoch.time_since_epoch() % options_.exact_grid != nanoseconds(0);
+  if (rounded) last_rounded_ = arrival.epoch;
+  const auto piece_of = [&](const Arrival& a) {
+    return a.epoch.time_since_epoch() / options_.piece;
+  };
+  if (earliest_.empty() || piece_of(earliest_.back()) != piece_of(arrival)) {
+    earliest_.push_back(arrival);
+  } else if (arrival.delay() < earliest_.back().delay()) {
+    earliest_.back() = arrival;
+  } else {
+    return;
+  }
+  forget_old();
+  refit();
+}
+
+void ClockFit::forget_old() {
+  const auto enough = static_cast<std::size_t>(options_.window / options_.piece) / 2;
+  while (earliest_.size() > 1) {
+    const nanoseconds age = newest_ - earliest_.front().epoch;
+    const bool old = age > options_.window && earliest_.size() > enough;
+    if (!old && age <= options_.longest_window) return;
+    earliest_.pop_front();
+  }
+}
+
+bool ClockFit::doubt(const Arrival& arrival, bool late) {
+  ++(late ? summary_.late : summary_.early);
+  summary_.in_doubt = true;
+  if (late != doubtful_are_late_) doubtful_.clear();
+  doubtful_are_late_ = late;
+  // Of many the first is kept, for how long it lasts, and the last ones, for what they say.
+  if (doubtful_.size() == kMostDoubtful) doubtful_.erase(doubtful_.begin() + 1);
+  doubtful_.push_back(arrival);
+  if (!confirmed()) return false;
+  begin_anew();
+  return true;
+}
+
+bool ClockFit::confirmed() const {
+  if (doubtful_.size() < static_cast<std::size_t>(options_.confirming)) return false;
+  // A stalled computer or radio gives late epochs, too, but in a heap or not for long.
+  const nanoseconds needed = doubtful_are_late_ ? nanoseconds(options_.late_lasts) : nanoseconds(0);
+  return doubtful_.back().host - doubtful_.front().host >= needed &&
+         doubtful_.back().epoch - doubtful_.front().epoch >= needed / 2;
+}
+
+void ClockFit::begin_anew() {
+  const std::deque<Arrival> after = std::exchange(doubtful_, {});
+  const auto floor = std::min_element(after.begin(), after.end(), [](const auto& a, const auto& b) {
+    return a.delay() < b.delay();
+  });
+  ++summary_.steps;
+  summary_.last_step = behind(*floor);
+  summary_.in_doubt = false;
+  earliest_.clear();
+  clock_.reset();
+  last_rounded_.reset();
+  used_since_start_ = 0;
+  for (const Arrival& arrival : after) {
+    if (earliest_.empty() || arrival.epoch > newest_) use(arrival);
+  }
+}
+
+void ClockFit::refit() {
+  const nanoseconds base = earliest_.back().delay();
+  std::vector<DelayPoint> points;
+  for (const Arrival& arrival : earliest_) {
+    points.push_back({in_seconds(arrival.epoch - newest_), in_seconds(arrival.delay() - base)});
+  }
+  const Envelope floor = lower_envelope(points, options_.rate_sigma);
+  const double span_s = -points.front().time_s;
+  GnssClock clock;
+  clock.gps = newest_;
+  clock.host = HostTime(newest_.time_since_epoch() + base + from_seconds(floor.value_s));
+  clock.rate = floor.slope;
+  // A line fitted to a rate that wanders is off at its end by about q T^(3/2) / sqrt(15).
+  const double walked = options_.rate_walk_per_sqrt_s * options_.rate_walk_per_sqrt_s;
+  clock.variance_s2 = floor.variance_s2 + walked * span_s * span_s * span_s / 15;
+  clock.covariance_s = floor.covariance_s + walked * span_s * span_s / 8;
+  clock.rate_variance = floor.slope_variance + walked * span_s / 3;
+  clock.rate_walk_per_sqrt_s = options_.rate_walk_per_sqrt_s;
+  clock_ = clock;
+}
+
+}  // namespace plumbline::timing

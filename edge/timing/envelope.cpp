@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+#include "edge/timing/envelope.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumbline::timing {
+namespace {
+
+// From the lowest how many points the density at the floor is taken.
+constexpr std::size_t kLowest = 6;
+// How much wider than for an even density the gap is taken, and its sigma: between an even density
+// (1, 1) and one that rises from zero (2.5, 1.3).
+constexpr double kGapFactor = 1.8;
+constexpr double kSigmaFactor = 1.8;
+// Less is not believed: the kernel's timer, the polling of USB.
+constexpr double kLeastGap_s = 0.1e-3;
+// A tail that is believed before there are points to tell: it counts as one point.
+constexpr double kUsualTail_s = 20e-3;
+constexpr double kSlopeLimitSigmas = 4;
+
+class SlopeLikelihood {
+ public:
+  SlopeLikelihood(const std::vector<DelayPoint>& points, double slope_sigma)
+      : points_(points), slope_sigma_(slope_sigma) {
+    for (const DelayPoint& point : points) {
+      mean_time_s_ += point.time_s / static_cast<double>(points.size());
+      mean_delay_s_ += point.delay_s / static_cast<double>(points.size());
+    }
+    const auto count = static_cast<double>(points.size());
+    density_per_s_ = 1 / std::max(kLeastGap_s, (cost_at_density_one(0) + kUsualTail_s) / count);
+  }
+
+  // The lowest line of that slope: its value at time 0.
+  double env_s(double slope) const {
+    double least = points_.front().delay_s - slope * points_.front().time_s;
+    for (const DelayPoint& point : points_) {
+      least = std::min(least, point.delay_s - slope * point.time_s);
+    }
+    return least;
+  }
+
+  // Minus the logarithm of the posterior; convex.
+  double cost(double slope) const {
+    const double sigmas = slope / slope_sigma_;
+    return density_per_s_ * cost_at_density_one(slope) + 0.5 * sigmas * sigmas;
+  }
+
+  double gap_s() const { return 1 / density_per_s_; }
+  double slope_limit() const { return kSlopeLimitSigmas * slope_sigma_; }
+
+  // The density at the floor, seen from the best line so far.
+  void take_density_about(double slope) {
+    std::vector<double> above;
+    for (const DelayPoint& point : points_) {
+      above.push_back(point.delay_s - slope * point.time_s - env_s(slope));
+    }
+    const std::size_t lowest = std::min(kLowest, above.size() - 1);
+    std::nth_element(above.begin(), above.begin() + static_cast<std::ptrdiff_t>(lowest),
+                     above.end());
+    const double usual_s = kUsualTail_s / static_cast<double>(above.size());
+    const double gap_s = kGapFactor * (above[lowest] + usual_s) / static_cast<double>(lowest + 1);
+    density_per_s_ = 1 / std::max(kLeastGap_s, gap_s);
+  }
+
+ private:
+  double cost_at_density_one(double slope) const {
+    return mean_delay_s_ - slope * mean_time_s_ - env_s(slope);
+  }
+
+  const std::vector<DelayPoint>& points_;
+  double slope_sigma_;
+  double mean_time_s_ = 0;
+  double mean_delay_s_ = 0;
+  double density_per_s_ = 0;
+};
+
+double best_slope(const SlopeLikelihood& likelihood) {
+  double low = -likelihood.slope_limit();
+  double high = likelihood.slope_limit();
+  for (int i = 0; i < 40; ++i) {
+    const double third = (high - low) / 3;
+    if (likelihood.cost(low + third) < likelihood.cost(high - third)) {
+      high -= third;
+    } else {
+      low += third;
+    }
+  }
+  return (low + high) / 2;
+}
+
+// How far from `best` the cost has risen by so much that nothing beyond counts.
+double reach(const SlopeLikelihood& likelihood, double best, double direction) {
+  constexpr double kEnough = 12;
+  const double least = likelihood.cost(best);
+  double inside = 0;
+  double outside = 2 * likelihood.slope_limit();
+  for (int i = 0; i < 30; ++i) {
+    const double middle = (inside + outside) / 2;
+    const bool counts = likelihood.cost(best + direction * middle) < least + kEnough;
+    (counts ? inside : outside) = middle;
+  }
+  return outside;
+}
+
+Envelope mean_over_slopes(const SlopeLikelihood& likelihood, double best) {
+  constexpr int kSteps = 48;
+  const double from = best - reach(likelihood, best, -1);
+  const double to = best + reach(likelihood, best, 1);
+  double weight = 0;
+  double value = 0;
+  double slope = 0;
+  double value2 = 0;
+  double both = 0;
+  double slope2 = 0;
+  const double env0 = likelihood.env_s(best);
+  for (int i = 0; i < kSteps; ++i) {
+    const double d = from + (to - from) * (i + 0.5) / kSteps - best;
+    const double w = std::exp(likelihood.cost(best) - likelihood.cost(best + d));
+    const double v = likelihood.env_s(best + d) - env0;
+    weight += w;
+    value += w * v;
+    slope += w * d;
+    value2 += w * v * v;
+    both += w * v * d;
+    slope2 += w * d * d;
+  }
+  value /= weight;
+  slope /= weight;
+  const double widened = kSigmaFactor * kSigmaFactor;
+  Envelope envelope;
+  envelope.value_s = env0 + value - likelihood.gap_s();
+  envelope.slope = best + slope;
+  envelope.variance_s2 =
+      widened * (value2 / weight - value * value + likelihood.gap_s() * likelihood.gap_s());
+  envelope.covariance_s = widened * (both / weight - value * slope);
+  envelope.slope_variance = widened * (slope2 / weight - slope * slope);
+  return envelope;
+}
+
+}  // namespace
+
+Envelope lower_envelope(const std::vector<DelayPoint>& points, double slope_sigma) {
+  SlopeLikelihood likelihood(points, slope_sigma);
+  double best = best_slope(likelihood);
+  for (int i = 0; i < 2; ++i) {
+    likelihood.take_density_about(best);
+    best = best_slope(likelihood);
+  }
+  return mean_over_slopes(likelihood, best);
+}
+
+}  // namespace plumbline::timing

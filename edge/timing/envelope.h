@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <vector>
+
+namespace plumbline::timing {
+
+// A delay, seconds, at a time, seconds; both about a common origin.
+struct DelayPoint {
+  double time_s = 0;
+  double delay_s = 0;
+};
+
+// The line below the points: its value at time 0, its slope, their covariance.
+struct Envelope {
+  double value_s = 0;
+  double slope = 0;
+  double variance_s2 = 0;
+  double covariance_s = 0;
+  double slope_variance = 0;
+};
+
+// The floor line of delays that are a line plus something positive of unknown law.
+//
+// Near the floor the points are a Poisson process whose density (points per second of delay) is
+// about even, which is exact for exponential and uniform laws. Then for a slope d the floor lies
+// below env(d) = min(delay - d time) by an exponential of the inverse density, and the slope has
+// the likelihood exp(-density * area between the points' centre and env). The density is taken
+// from the few lowest points, not from all: the tail says nothing about the floor. Laws that begin
+// thinly (gamma) have fewer points at the floor than just above it; for them the gap is taken wider
+// and its sigma, too (checked by simulation over several laws). Posterior mean and covariance over
+// the slope are by numerical integration, with a normal prior of `slope_sigma` about 0.
+//
+// `points`: one or more, any order.
+Envelope lower_envelope(const std::vector<DelayPoint>& points, double slope_sigma);
+
+}  // namespace plumbline::timing
