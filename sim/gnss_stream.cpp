@@ -73,7 +73,7 @@ GnssStream::Epoch GnssStream::epoch_at(UtcTime utc) {
   Eigen::Vector3d error_m(random_.normal(), random_.normal(), random_.normal());
   error_m = error_m.cwiseProduct(epoch.said.sigma.per_axis());
   if (const GnssFault* fault = fault_at(epoch.seconds, Kind::kFalseFix)) {
-    error_m += fault->offset_enu_m;
+    error_m += Eigen::Vector3d::Map(fault->offset_enu_m.data());
   }
   epoch.said.place = moved(path_(epoch.seconds), error_m);
   if (fault_at(epoch.seconds, Kind::kNoFix) != nullptr) epoch.said.quality = FixQuality::kNone;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <Eigen/Core>
+#include <array>
 #include <chrono>
 #include <deque>
 #include <functional>
@@ -31,7 +31,7 @@ struct GnssFault {
   double from_s = 0;
   double until_s = 0;
   Kind kind = Kind::kSilent;
-  Eigen::Vector3d offset_enu_m = Eigen::Vector3d::Zero();  // of kFalseFix
+  std::array<double, 3> offset_enu_m{};  // of kFalseFix
 };
 
 struct GnssStreamOptions {

@@ -16,11 +16,15 @@ Status SimReceiver::start(Sink sink) {
   run_->watch.set_name(name_);
   // The sink is not called before start() has returned.
   clock_.at(clock_.now(), [this, run = std::weak_ptr(run_)] {
-    if (run.expired()) return;
-    in_ ? run_->watch.opened(clock_.now()) : run_->watch.absent(clock_.now(), absence());
-    schedule_look();
+    if (!run.expired()) begin();
   });
   return Done{};
+}
+
+void SimReceiver::begin() {
+  if (!run_ || std::exchange(run_->begun, true)) return;
+  in_ ? run_->watch.opened(clock_.now()) : run_->watch.absent(clock_.now(), absence());
+  schedule_look();
 }
 
 void SimReceiver::stop() {
@@ -33,6 +37,7 @@ void SimReceiver::stop() {
 ReceiverCounters SimReceiver::counters() const { return run_ ? run_->watch.counters() : counters_; }
 
 void SimReceiver::plug_in() {
+  begin();
   in_ = true;
   if (!run_) return;
   run_->watch.opened(clock_.now());
@@ -40,11 +45,13 @@ void SimReceiver::plug_in() {
 }
 
 void SimReceiver::pull() {
+  begin();
   in_ = false;
   if (run_) run_->watch.absent(clock_.now(), absence());
 }
 
 void SimReceiver::send(std::string_view bytes) {
+  begin();
   if (!run_ || !in_) return;
   run_->watch.bytes(clock_.now(), bytes);
   schedule_look();

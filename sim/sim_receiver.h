@@ -35,9 +35,11 @@ class SimReceiver : public GnssReceiver {
   // What scheduled looks reach, until stop().
   struct Run {
     ReceiverWatch watch;
+    bool begun = false;
     HostTime look_at = HostTime::max();  // the earliest look that is scheduled
   };
 
+  void begin();
   void schedule_look();
   std::string absence() const;
 
