@@ -126,6 +126,19 @@ hil_image() {
   (cd "$root" && find . | cpio --quiet --create --format=newc --owner 0:0) >"$hil_build/$name/initrd"
 }
 
+# Arguments for QEMU: two character devices, of which each reads what the other writes.
+hil_wire() {
+  local socket
+  socket=$(mktemp --dry-run --tmpdir plumbline-hil-XXXXXX)
+  echo "-chardev socket,id=$1,path=$socket,server=on,wait=off -chardev socket,id=$2,path=$socket"
+}
+
+# Arguments for QEMU: a guest that may plug and pull its own devices (guest/hand).
+hil_hand() {
+  echo "-device virtio-serial-pci $(hil_wire hand qmp) -mon chardev=qmp,mode=control" \
+    "-device virtserialport,chardev=hand,name=hand"
+}
+
 # hil_boot CASE SECONDS [QEMU_ARGUMENT...]: what the case prints, and its exit status; 124 when it
 # took longer than so many seconds, 125 when it ended without a status.
 hil_boot() {
