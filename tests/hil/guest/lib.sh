@@ -122,6 +122,7 @@ hil_image() {
   if [ "$hil_udev" = yes ]; then hil_put_udev "$root"; fi
   hil_put_modules "$tree" "$version" "$root"
   install -m 755 "$hil_source/tests/hil/guest/init" "$root/init"
+  install -m 755 "$hil_source/tests/hil/guest/"{await,hand} "$root/bin/"
   printf '%s\n' "$commands" >"$root/guest/case"
   (cd "$root" && find . | cpio --quiet --create --format=newc --owner 0:0) >"$hil_build/$name/initrd"
 }
