@@ -18,6 +18,8 @@ constexpr std::uint32_t kCapabilities = 1U << 1 | 1U << 4 | 1U << 5 | 1U << 6;
 constexpr std::size_t kHelloHeader = 12;  // ids have 4 bytes until both sides have said hello
 constexpr std::size_t kHeader = 16;
 
+}  // namespace
+
 posix::Descriptor connect_to(const std::string& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
@@ -28,8 +30,6 @@ posix::Descriptor connect_to(const std::string& path) {
   if (::connect(socket.get(), generic, sizeof address) != 0) socket.close();
   return socket;
 }
-
-}  // namespace
 
 std::uint64_t number_at(std::string_view bytes, std::size_t at, int count) {
   std::uint64_t value = 0;

@@ -35,6 +35,9 @@ class Bytes {
 // The little-endian number of `count` bytes at `at`; bytes beyond the end are 0.
 std::uint64_t number_at(std::string_view bytes, std::size_t at, int count);
 
+// Closed where nobody listens there.
+posix::Descriptor connect_to(const std::string& socket_path);
+
 // Packets of the usbredir protocol (its document: usb-redirection-protocol.md of usbredir).
 enum class Redir : std::uint32_t {
   kHello = 0,

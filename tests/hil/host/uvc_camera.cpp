@@ -52,8 +52,9 @@ std::string of_32(std::initializer_list<unsigned> first) {
 
 }  // namespace
 
-UvcCamera::UvcCamera(RedirLink& link, UvcMode mode, UvcPicture picture, UvcFaults faults)
-    : link_(link), mode_(mode), picture_(std::move(picture)), faults_(faults) {
+UvcCamera::UvcCamera(RedirLink& link, UvcMode mode, UvcPicture picture, const UvcOrders& orders,
+                     milliseconds delay)
+    : link_(link), mode_(mode), picture_(std::move(picture)), orders_(orders), delay_(delay) {
   controls_[kExposureMode] = {
       1, 1, 8, kManual | kAperturePriority, kAperturePriority, kAperturePriority};
   controls_[kExposureTime] = {4, 1, 10000, 1, 156, 156};
@@ -62,11 +63,18 @@ UvcCamera::UvcCamera(RedirLink& link, UvcMode mode, UvcPicture picture, UvcFault
 }
 
 void UvcCamera::run() {
-  plug_in();
-  while (plugged_ && link_.is_open()) {
+  while (link_.is_open()) {
+    if (orders_.plugged != plugged_) plugged_ ? unplug() : plug_in();
     if (const auto packet = link_.receive(until_next_frame())) take(*packet);
     feed();
   }
+}
+
+void UvcCamera::unplug() {
+  link_.send(Redir::kDisconnect, 0, "");
+  waiting_.clear();
+  image_.clear();
+  plugged_ = false;
 }
 
 void UvcCamera::plug_in() {
@@ -242,17 +250,18 @@ void UvcCamera::take_cancel(std::uint64_t id) {
 }
 
 milliseconds UvcCamera::until_next_frame() const {
-  if (waiting_.empty()) return milliseconds(1000);
+  constexpr milliseconds kOrders(20);  // looked at so often
+  if (waiting_.empty() || orders_.silent) return kOrders;
   const SteadyTime next = image_.empty() ? next_exposure_ : ready_;
   const auto left = std::chrono::ceil<milliseconds>(next - std::chrono::steady_clock::now());
-  return std::clamp(left, milliseconds(0), milliseconds(1000));
+  return std::clamp(left, milliseconds(0), kOrders);
 }
 
 void UvcCamera::feed() {
   while (plugged_ && link_.is_open() && !waiting_.empty()) {
     const SteadyTime now = std::chrono::steady_clock::now();
     if (image_.empty()) {
-      if (now < next_exposure_) return;
+      if (now < next_exposure_ || orders_.silent) return;
       expose(now);
     }
     if (std::chrono::steady_clock::now() < ready_) return;
@@ -268,8 +277,7 @@ void UvcCamera::expose(SteadyTime now) {
   next_exposure_ = std::max(next_exposure_ + interval, now);
   image_ = picture_(frames_, settings());
   sent_ = 0;
-  ready_ = now + faults_.delay;
-  if (faults_.stall_after != 0 && frames_ == faults_.stall_after) ready_ += faults_.stall;
+  ready_ = now + delay_;
 }
 
 // A payload: its header (length; bits for which frame and its end), then a part of the frame.
@@ -284,10 +292,6 @@ void UvcCamera::complete(Transfer transfer) {
   if (!last) return;
   image_.clear();
   ++frames_;
-  if (faults_.unplug_after != 0 && frames_ == faults_.unplug_after) {
-    link_.send(Redir::kDisconnect, 0, "");
-    plugged_ = false;
-  }
 }
 
 }  // namespace plumbline::hil

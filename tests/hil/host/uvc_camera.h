@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <deque>
@@ -24,22 +25,20 @@ struct UvcSettings {
 // One frame of YUY2, exposed now.
 using UvcPicture = std::function<std::string(std::uint64_t frame, const UvcSettings& settings)>;
 
-// What goes wrong, each after so many frames; 0: never.
-struct UvcFaults {
-  std::uint64_t unplug_after = 0;
-  std::uint64_t stall_after = 0;
-  std::chrono::milliseconds stall{3000};  // no frame for so long
-  std::chrono::milliseconds delay{};      // of each frame, from its exposure to its first byte
+// What is done to it, from another thread.
+struct UvcOrders {
+  std::atomic<bool> plugged{true};
+  std::atomic<bool> silent{false};  // no frame comes
 };
 
 // A USB camera that exists only in this program: plugs itself into QEMU's usb-redir device and
-// streams to the guest's own driver (uvcvideo) until unplugged or QEMU ends. One thread.
+// streams to the guest's own driver (uvcvideo) until QEMU ends. One thread.
 class UvcCamera {
  public:
-  UvcCamera(RedirLink& link, UvcMode mode, UvcPicture picture, UvcFaults faults = {});
+  UvcCamera(RedirLink& link, UvcMode mode, UvcPicture picture, const UvcOrders& orders,
+            std::chrono::milliseconds delay);  // from a frame's exposure to its first byte
 
   void run();
-  std::uint64_t frames() const { return frames_; }
 
  private:
   using SteadyTime = std::chrono::steady_clock::time_point;
@@ -57,6 +56,7 @@ class UvcCamera {
   };
 
   void plug_in();
+  void unplug();
   void send_endpoints();
   void take(const RedirPacket& packet);
   void take_control(const RedirPacket& packet);
@@ -76,7 +76,8 @@ class UvcCamera {
   RedirLink& link_;
   const UvcMode mode_;
   const UvcPicture picture_;
-  const UvcFaults faults_;
+  const UvcOrders& orders_;
+  const std::chrono::milliseconds delay_;
   std::map<std::pair<unsigned, unsigned>, Control> controls_;  // by entity and selector
   std::deque<Transfer> waiting_;
   std::string image_;  // of the frame that is being sent

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A USB camera behind QEMU's usb-redir device that looks down on the simulated ground and climbs at
 // 2 m/s, from where the drone is when a frame is exposed.
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <thread>
@@ -15,11 +17,9 @@ using std::chrono::steady_clock;
 
 struct Settings {
   std::string socket;
+  std::string orders;
   UvcMode mode;
-  UvcFaults faults;
-  std::uint64_t stall_ms = 3000;
   std::uint64_t delay_ms = 0;
-  int plugs = 1;
 };
 
 // Black and white of full range: red, green and blue to Y, grey for U and V.
@@ -67,6 +67,25 @@ class SimulatedView {
   steady_clock::time_point begin_ = steady_clock::now();
 };
 
+// "plug", "unplug", "silence", "speak", a line each.
+void obey(const std::string& line, UvcOrders& orders) {
+  if (line == "plug" || line == "unplug") orders.plugged = line == "plug";
+  if (line == "silence" || line == "speak") orders.silent = line == "silence";
+}
+
+// Until the other side closes the socket.
+void take_orders(const posix::Descriptor& socket, UvcOrders& orders) {
+  std::string line;
+  for (char letter = 0; ::read(socket.get(), &letter, 1) == 1;) {
+    if (letter != '\n') {
+      line += letter;
+      continue;
+    }
+    obey(line, orders);
+    line.clear();
+  }
+}
+
 int run(const Settings& settings) {
   const SimulatedView view(settings.mode);
   RedirLink link;
@@ -74,16 +93,15 @@ int run(const Settings& settings) {
     std::fprintf(stderr, "uvc_camera: cannot reach QEMU at %s\n", settings.socket.c_str());
     return 1;
   }
+  UvcOrders orders;
+  const posix::Descriptor orders_socket = connect_to(settings.orders);
+  std::thread listener([&] { take_orders(orders_socket, orders); });
   const auto expose = [&view](std::uint64_t frame, const UvcSettings& /*set*/) {
     return view.expose(frame);
   };
-  for (int plug = 0; plug < settings.plugs && link.is_open(); ++plug) {
-    if (plug > 0) std::this_thread::sleep_for(std::chrono::seconds(2));
-    UvcCamera camera(link, settings.mode, expose, settings.faults);
-    camera.run();
-    std::fprintf(stderr, "uvc_camera: %llu frames, then unplugged\n",
-                 static_cast<unsigned long long>(camera.frames()));
-  }
+  UvcCamera(link, settings.mode, expose, orders, std::chrono::milliseconds(settings.delay_ms))
+      .run();
+  listener.join();  // QEMU, which has both sockets, is gone
   return 0;
 }
 
@@ -97,13 +115,8 @@ int main(int count, char** arguments) {
   app.add_option("--width", settings.mode.width_px, "pixels");
   app.add_option("--height", settings.mode.height_px, "pixels");
   app.add_option("--rate", settings.mode.frames_per_s, "frames per second");
-  app.add_option("--unplug-after", settings.faults.unplug_after, "frames; 0: never");
-  app.add_option("--stall-after", settings.faults.stall_after, "frames; 0: never");
-  app.add_option("--stall-ms", settings.stall_ms, "length of a stall");
+  app.add_option("--orders", settings.orders, "socket that says: plug, unplug, silence, speak");
   app.add_option("--delay-ms", settings.delay_ms, "from exposure to the first byte");
-  app.add_option("--plugs", settings.plugs, "how many times it is plugged in, 2 s apart");
   CLI11_PARSE(app, count, arguments);
-  settings.faults.stall = std::chrono::milliseconds(settings.stall_ms);
-  settings.faults.delay = std::chrono::milliseconds(settings.delay_ms);
   return plumbline::hil::run(settings);
 }
