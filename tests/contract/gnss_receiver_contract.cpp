@@ -65,10 +65,8 @@ bool ReceiverEvents::has(ReceiverState state, std::size_t since_report) const {
 }
 
 void GnssReceiverContract::SetUp() {
+  if (!GetParam().make) GTEST_SKIP() << GetParam().why_not;
   bench_ = GetParam().make();
-  if (!bench_) {
-    GTEST_SKIP() << "PLUMBLINE_TEST_SERIAL names no serial port (scripts/bench sets it)";
-  }
   next_burst_ = bench_->now();
 }
 
@@ -230,7 +228,7 @@ TEST_P(GnssReceiverContract, IsBackWithinTwoSecondsOfEachOfFiftyReturns) {
     go_on_for(random_time(), positions);
     const std::string burst = positions(epoch_++);
     bench_->send(burst.substr(0, static_cast<std::size_t>(random.uniform() * 200)));
-    const std::size_t before = events().reports().size();
+    const std::size_t before = events().reports().size();  // a pull may take longer than its report
     bench_->pull();
     ASSERT_TRUE(until([&] { return events().has(ReceiverState::kAbsent, before); }, kPromised))
         << round;

@@ -56,8 +56,9 @@ class ReceiverBench {
 using MakeReceiverBench = std::function<std::unique_ptr<ReceiverBench>()>;
 
 struct NamedReceiverBench {
-  std::string name;  // letters only
-  MakeReceiverBench make;
+  std::string name;        // letters only
+  MakeReceiverBench make;  // empty where it cannot run here
+  std::string why_not;     // then
 };
 
 inline void PrintTo(const NamedReceiverBench& bench, std::ostream* out) { *out << bench.name; }

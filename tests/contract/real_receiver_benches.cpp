@@ -2,10 +2,14 @@
 #include "tests/contract/real_receiver_benches.h"
 
 #include <arpa/inet.h>
+#include <fcntl.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <termios.h>
+#include <unistd.h>
 
 #include <condition_variable>
+#include <cstdlib>
 #include <filesystem>
 
 #include "drivers/gnss/stream_receiver.h"
@@ -113,9 +117,54 @@ class TcpBench : public RealBench {
   std::uint16_t port_ = 0;
 };
 
+std::string setting(const std::string& name) {
+  const char* value = std::getenv(("PLUMBLINE_TEST_SERIAL" + name).c_str());
+  return value == nullptr ? "" : value;
+}
+
+class KernelPortBench : public RealBench {
+ public:
+  KernelPortBench() {
+    run("_PULL");
+    drive(std::make_unique<posix::SerialPort>(setting("")));
+  }
+  ~KernelPortBench() override { receiver_.reset(); }
+
+  void plug_in() override {
+    ASSERT_TRUE(run("_PLUG"));
+    far_ = posix::Descriptor(::open(setting("_FAR").c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC));
+    ASSERT_TRUE(far_.is_open()) << setting("_FAR");
+    termios raw{};
+    if (::tcgetattr(far_.get(), &raw) != 0) return;  // not a terminal: as it is
+    ::cfmakeraw(&raw);
+    ::tcsetattr(far_.get(), TCSANOW, &raw);
+  }
+
+  void pull() override {
+    ASSERT_TRUE(run("_PULL"));
+    far_.close();
+  }
+
+  void send(std::string_view bytes) override {
+    while (!bytes.empty()) {
+      const ssize_t taken = ::write(far_.get(), bytes.data(), bytes.size());
+      if (taken <= 0) return;
+      bytes.remove_prefix(static_cast<std::size_t>(taken));
+    }
+  }
+
+ private:
+  static bool run(const std::string& name) { return std::system(setting(name).c_str()) == 0; }
+
+  posix::Descriptor far_;
+};
+
 }  // namespace
 
 std::unique_ptr<ReceiverBench> make_pty_bench() { return std::make_unique<PtyBench>(); }
 std::unique_ptr<ReceiverBench> make_tcp_bench() { return std::make_unique<TcpBench>(); }
+std::unique_ptr<ReceiverBench> make_kernel_port_bench() {
+  return std::make_unique<KernelPortBench>();
+}
 
 }  // namespace plumbline::contract

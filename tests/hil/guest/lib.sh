@@ -12,9 +12,11 @@ hil_programs=()  # of this machine, with the shared libraries they need
 hil_files=()     # HOST_PATH:GUEST_PATH
 hil_modules=()   # loaded in this order, "name parameter=value"
 hil_udev=no
+hil_append=''  # of the next boot: more of the kernel's command line; "name=value" is in the environment
 
 # The version of the newest stock kernel of this Debian.
 hil_version() {
+  [ -z "${hil_version:-}" ] || { echo "$hil_version"; return; }
   apt-cache depends linux-image-amd64 | sed -n 's/.*Depends: linux-image-//p' | head -n 1
 }
 
@@ -122,8 +124,22 @@ hil_image() {
   if [ "$hil_udev" = yes ]; then hil_put_udev "$root"; fi
   hil_put_modules "$tree" "$version" "$root"
   install -m 755 "$hil_source/tests/hil/guest/init" "$root/init"
+  install -m 755 "$hil_source/tests/hil/guest/"{await,hand} "$root/bin/"
   printf '%s\n' "$commands" >"$root/guest/case"
   (cd "$root" && find . | cpio --quiet --create --format=newc --owner 0:0) >"$hil_build/$name/initrd"
+}
+
+# Arguments for QEMU: two character devices, of which each reads what the other writes.
+hil_wire() {
+  local socket
+  socket=$(mktemp --dry-run --tmpdir plumbline-hil-XXXXXX)
+  echo "-chardev socket,id=$1,path=$socket,server=on,wait=off -chardev socket,id=$2,path=$socket"
+}
+
+# Arguments for QEMU: a guest that may plug and pull its own devices (guest/hand).
+hil_hand() {
+  echo "-device virtio-serial-pci $(hil_wire hand qmp) -mon chardev=qmp,mode=control" \
+    "-device virtserialport,chardev=hand,name=hand"
 }
 
 # hil_boot CASE SECONDS [QEMU_ARGUMENT...]: what the case prints, and its exit status; 124 when it
@@ -135,10 +151,12 @@ hil_boot() {
     -accel tcg,thread=multi -cpu qemu64,+ssse3,+sse4.1,+sse4.2,+popcnt -machine pc -smp 2 -m 768 \
     -nodefaults -no-user-config -display none -no-reboot \
     -kernel "$(hil_kernel)/boot/vmlinuz-$(hil_version)" -initrd "$hil_build/$name/initrd" \
-    -append "console=ttyS0 loglevel=4 panic=-1 mitigations=off nokaslr no_timer_check tsc=reliable random.trust_cpu=on cryptomgr.notests" \
+    -append "console=ttyS0 loglevel=4 panic=-1 mitigations=off nokaslr no_timer_check tsc=reliable random.trust_cpu=on cryptomgr.notests $hil_append" \
     -serial "file:$hil_build/$name/kernel.log" -serial stdio \
     -device isa-debug-exit,iobase=0xf4,iosize=0x04 "$@" </dev/null || status=$?
   if [ "$status" = 124 ] || [ "$status" = 137 ]; then return 124; fi
   if [ $((status % 2)) = 0 ]; then return 125; fi
   return $((status / 2))
 }
+
+hil_version=$(hil_version)  # asked once: apt-cache takes a second
