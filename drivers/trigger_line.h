@@ -43,9 +43,10 @@ using LineEvent = std::variant<LineEdge, EdgesLost, LineFault>;
 
 // SEAM: a wire to the camera's shutter, and one back. Either may be missing: then its member fails
 // with a sentence, and the other works. pulse(), listen() and stop() are called from one thread;
-// the sink from one thread of the driver's own, in order of time, never after stop() has returned.
-// The output is inactive from construction until the first pulse and after the destructor, also
-// when the program dies between the two edges of a pulse (as far as the chip keeps no state).
+// the sink from one thread of the driver's own, in order of time, never after stop() has returned,
+// and never of what happened before listen(). The output is inactive from construction until the
+// first pulse and after the destructor, also when the program dies between the two edges of a pulse
+// (as far as the chip keeps no state).
 class TriggerLine {
  public:
   using Sink = std::function<void(LineEvent)>;

@@ -30,7 +30,7 @@ Result<Pulse> SimTriggerLine::pulse() {
 
 Status SimTriggerLine::listen(Sink sink) {
   if (listener_->sink) return Error{"The trigger line is listened to already."};
-  listener_->sink = std::move(sink);
+  *listener_ = {std::move(sink)};
   return Done{};
 }
 

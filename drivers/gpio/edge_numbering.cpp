@@ -17,11 +17,12 @@ std::vector<LineEvent> EdgeNumbering::number(const std::vector<RawEdge>& edges) 
 }
 
 std::uint64_t EdgeNumbering::lost_before(const RawEdge& edge) const {
-  if (edge.sequence) {
-    const std::uint64_t expected = last_ && last_->sequence ? *last_->sequence + 1 : 1;
+  if (!last_) return 0;
+  if (edge.sequence && last_->sequence) {
+    const std::uint64_t expected = *last_->sequence + 1;
     return *edge.sequence > expected ? *edge.sequence - expected : 0;
   }
-  return last_ && last_->rising == edge.rising ? 1 : 0;
+  return last_->rising == edge.rising ? 1 : 0;
 }
 
 }  // namespace plumbline::gpio

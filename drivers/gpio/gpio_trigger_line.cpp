@@ -52,6 +52,7 @@ class GpioTriggerLine : public TriggerLine {
     if (thread_.joinable()) return Error{"The trigger line is listened to already."};
     wake_up_ = ::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK);
     if (wake_up_ < 0) return line_error("listen to", "events", errno);
+    forget_what_came_before();
     thread_ = std::thread([this, sink = std::move(sink)] { run(sink); });
     return Done{};
   }
@@ -64,6 +65,14 @@ class GpioTriggerLine : public TriggerLine {
   }
 
  private:
+  // The kernel queues edges from the moment the line is taken.
+  void forget_what_came_before() {
+    pollfd queued{in_->descriptor(), POLLIN, 0};
+    while (::poll(&queued, 1, 0) > 0 && in_->read()) {
+    }
+    numbering_ = EdgeNumbering();
+  }
+
   void run(const Sink& sink) {
     while (true) {
       std::array<pollfd, 2> waited{{{wake_up_, POLLIN, 0}, {in_->descriptor(), POLLIN, 0}}};
