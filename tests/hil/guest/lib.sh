@@ -147,7 +147,8 @@ hil_hand() {
 hil_boot() {
   local name=$1 seconds=$2 status=0
   shift 2
-  timeout --kill-after=5 "$seconds" qemu-system-x86_64 \
+  # In the foreground, that is, in the process group of the case: ended with it.
+  timeout --foreground --kill-after=5 "$seconds" qemu-system-x86_64 \
     -accel tcg,thread=multi -cpu qemu64,+ssse3,+sse4.1,+sse4.2,+popcnt -machine pc -smp 2 -m 768 \
     -nodefaults -no-user-config -display none -no-reboot \
     -kernel "$(hil_kernel)/boot/vmlinuz-$(hil_version)" -initrd "$hil_build/$name/initrd" \
