@@ -159,7 +159,9 @@ void V4l2Camera::stream() {
     if (session_ && none_came && (happened & POLLERR) != 0) fail_to_read(EIO);
     if (!session_) return;
     if (session_->buffers().all_lent()) watch_.excused(now);
-    send(watch_.tick(now));
+    const std::optional<CameraReport> stalled = watch_.tick(now);
+    if (stalled) account_.restarted();  // what was not taken leaves no gap in the device's numbers
+    send(stalled);
     if (watch_.is_lost(now)) return;
   }
 }

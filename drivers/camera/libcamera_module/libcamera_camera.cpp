@@ -198,9 +198,18 @@ void LibcameraCamera::stream() {
     const bool all_lent = take_letters();
     const HostTime now = monotonic_now();
     if (all_lent) watch_.excused(now);
-    send(watch_.tick(now));
+    judge_silence(now);
     if (watch_.is_lost(now)) return;
   }
+}
+
+// What was not taken leaves no gap in the device's numbers, and its time is no period.
+void LibcameraCamera::judge_silence(HostTime now) {
+  const std::optional<CameraReport> stalled = watch_.tick(now);
+  if (!stalled) return;
+  account_.restarted();
+  last_stamp_.reset();
+  send(stalled);
 }
 
 // Until there is a letter, or the deadline. True: to be stopped.

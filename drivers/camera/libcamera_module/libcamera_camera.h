@@ -53,6 +53,7 @@ class LibcameraCamera : public Camera {
   void adopt(std::unique_ptr<LibcameraSession> session);
   void stream();
   void close();
+  void judge_silence(HostTime now);
   bool wait_until(HostTime deadline);
   bool take_letters();
   void requeue(libcamera::Request* request);

@@ -66,7 +66,8 @@ hil_put() {
   local from=$1 to=$2 root=$3 library
   mkdir -p "$root$(dirname "$to")"
   cp --recursive --dereference "$from" "$root$to"
-  find "$from" -type f \( -perm /111 -o -name '*.so*' \) -print0 | xargs -0 -r ldd 2>/dev/null |
+  find "$from" -type f \( -perm /111 -o -name '*.so*' \) -print0 |
+    { xargs -0 -r ldd 2>/dev/null || true; } |  # it fails where a file needs no loader
     sed -n 's/.*=> \(\/[^ ]*\).*/\1/p; s/^\t\(\/[^ ]*\) (.*/\1/p' | sort -u | while read -r library; do
     [ -e "$root$library" ] || { mkdir -p "$root$(dirname "$library")"; cp --dereference "$library" "$root$library"; }
   done
