@@ -15,10 +15,10 @@
 #include "drivers/gnss/stream_receiver.h"
 #include "drivers/posix/descriptor.h"
 #include "drivers/posix/serial_port.h"
+#include "drivers/posix/system_clock.h"
 #include "drivers/posix/tcp_stream.h"
 #include "edge/gnss/stream_decoder.h"
 #include "sim/pty_port.h"
-#include "tests/contract/steady_host_clock.h"
 
 namespace plumbline::contract {
 namespace {
@@ -44,7 +44,7 @@ class RealBench : public ReceiverBench {
                                                               gnss::make_fix_decoder, clock_);
   }
 
-  SteadyHostClock clock_;
+  posix::SystemClock clock_;
   Signal nothing_;
   ReceiverEvents events_;
   std::unique_ptr<GnssReceiver> receiver_;  // last: its thread ends first
