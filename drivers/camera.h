@@ -57,6 +57,7 @@ struct CameraOptions {
   std::optional<int> width_px;
   std::optional<int> height_px;
   std::optional<PixelFormat> format;
+  bool raw = false;  // Bayer only, in all bits that the camera has, for a raw file
   std::optional<double> frames_per_s;
   // Shutter priority: exposure no longer than this (the bound that blur sets), gain to suit; with a
   // fixed gain, too, both are constant. Where the camera cannot, a notice says so.

@@ -6,24 +6,12 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <utility>
 
 namespace plumbline {
 namespace {
-
-constexpr std::array<std::pair<PixelFormat, std::uint32_t>, 8> kFourcc = {{
-    {PixelFormat::kGrey, V4L2_PIX_FMT_GREY},
-    {PixelFormat::kYuyv, V4L2_PIX_FMT_YUYV},
-    {PixelFormat::kNv12, V4L2_PIX_FMT_NV12},
-    {PixelFormat::kMjpeg, V4L2_PIX_FMT_MJPEG},
-    {PixelFormat::kRgb24, V4L2_PIX_FMT_RGB24},
-    {PixelFormat::kRggb8, V4L2_PIX_FMT_SRGGB8},
-    {PixelFormat::kRggb10, V4L2_PIX_FMT_SRGGB10},
-    {PixelFormat::kRggb10Packed, V4L2_PIX_FMT_SRGGB10P},
-}};
 
 // A driver that never says "that was all" must not keep us for ever.
 constexpr std::uint32_t kMostEntries = 256;
@@ -104,7 +92,7 @@ std::optional<double> fastest(const V4l2Device& device, std::uint32_t fourcc, in
 }
 
 void add_sizes(const V4l2Device& device, PixelFormat format, std::vector<CameraMode>& modes) {
-  const std::uint32_t fourcc = fourcc_of(format);
+  const std::uint32_t fourcc = code_of(format);
   for (std::uint32_t i = 0; i < kMostEntries; ++i) {
     v4l2_frmsizeenum entry{};
     entry.index = i;
@@ -207,17 +195,7 @@ std::vector<CameraMode> modes_of(const V4l2Device& device) {
 
 std::optional<PixelFormat> pixel_format_of_fourcc(std::uint32_t fourcc) {
   if (fourcc == V4L2_PIX_FMT_JPEG) return PixelFormat::kMjpeg;
-  for (const auto& [format, code] : kFourcc) {
-    if (code == fourcc) return format;
-  }
-  return std::nullopt;
-}
-
-std::uint32_t fourcc_of(PixelFormat format) {
-  for (const auto& [known, code] : kFourcc) {
-    if (known == format) return code;
-  }
-  return 0;
+  return pixel_format_of_code(fourcc);
 }
 
 }  // namespace plumbline

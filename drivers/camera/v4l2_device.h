@@ -53,8 +53,7 @@ std::vector<V4l2Control> controls_of(const V4l2Device& device);
 // sizes the largest.
 std::vector<CameraMode> modes_of(const V4l2Device& device);
 
-// As enum and as V4L2's code.
+// The format of V4L2's code; the way back is code_of().
 std::optional<PixelFormat> pixel_format_of_fourcc(std::uint32_t fourcc);
-std::uint32_t fourcc_of(PixelFormat format);
 
 }  // namespace plumbline

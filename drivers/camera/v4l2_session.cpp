@@ -141,7 +141,7 @@ int V4l2Session::set_format(const CameraMode& mode) {
   format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   format.fmt.pix.width = static_cast<std::uint32_t>(mode.width_px);
   format.fmt.pix.height = static_cast<std::uint32_t>(mode.height_px);
-  format.fmt.pix.pixelformat = fourcc_of(mode.format);
+  format.fmt.pix.pixelformat = code_of(mode.format);
   format.fmt.pix.field = V4L2_FIELD_NONE;
   const int error = device_.call(VIDIOC_S_FMT, &format);
   if (error != 0) return error;

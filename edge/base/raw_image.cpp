@@ -1,39 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "edge/base/raw_image.h"
 
-#include <algorithm>
-#include <array>
-#include <cctype>
-#include <utility>
+#include <string>
 
 namespace plumbline {
 namespace {
 
-constexpr std::array<std::pair<PixelFormat, const char*>, 8> kNames = {{
-    {PixelFormat::kGrey, "GREY"},
-    {PixelFormat::kYuyv, "YUYV"},
-    {PixelFormat::kNv12, "NV12"},
-    {PixelFormat::kMjpeg, "MJPG"},
-    {PixelFormat::kRgb24, "RGB3"},
-    {PixelFormat::kRggb8, "RGGB"},
-    {PixelFormat::kRggb10, "RG10"},
-    {PixelFormat::kRggb10Packed, "pRAA"},
-}};
-
-bool is_bayer(PixelFormat format) {
-  return format == PixelFormat::kRggb8 || format == PixelFormat::kRggb10 ||
-         format == PixelFormat::kRggb10Packed;
-}
-
 std::string shown(const RawImage& image) {
   return std::to_string(image.width_px) + " x " + std::to_string(image.height_px) + " " +
          name_of(image.format);
-}
-
-bool same_letters(const std::string& a, const std::string& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](unsigned char x, unsigned char y) {
-    return std::toupper(x) == std::toupper(y);
-  });
 }
 
 // Rows of the last one only as many bytes as pixels need: drivers may leave out its padding.
@@ -49,7 +24,7 @@ Status check_size(const RawImage& image) {
   const bool odd_width = image.width_px % 2 != 0;
   const bool odd_height = image.height_px % 2 != 0;
   const bool pairs = image.format == PixelFormat::kYuyv || image.format == PixelFormat::kNv12;
-  const bool squares = is_bayer(image.format) || image.format == PixelFormat::kNv12;
+  const bool squares = bayer_of(image.format).has_value() || image.format == PixelFormat::kNv12;
   if ((pairs && odd_width) || (squares && (odd_width || odd_height))) {
     return Error{"A camera frame of " + shown(image) +
                  " has an odd size, which this format cannot have; choose an even one."};
@@ -76,42 +51,6 @@ Status check_jpeg(const RawImage& image) {
 }
 
 }  // namespace
-
-std::string name_of(PixelFormat format) {
-  for (const auto& [known, name] : kNames) {
-    if (known == format) return name;
-  }
-  return "unknown";
-}
-
-Result<PixelFormat> pixel_format_of(const std::string& name) {
-  std::string names;
-  for (const auto& [format, known] : kNames) {
-    if (same_letters(name, known)) return format;
-    names += (names.empty() ? "" : ", ") + std::string(known);
-  }
-  return Error{"There is no pixel format '" + name + "'; there are " + names + "."};
-}
-
-std::size_t row_bytes(PixelFormat format, int width_px) {
-  const auto width = static_cast<std::size_t>(width_px);
-  switch (format) {
-    case PixelFormat::kGrey:
-    case PixelFormat::kNv12:
-    case PixelFormat::kRggb8:
-      return width;
-    case PixelFormat::kYuyv:
-    case PixelFormat::kRggb10:
-      return 2 * width;
-    case PixelFormat::kRgb24:
-      return 3 * width;
-    case PixelFormat::kRggb10Packed:
-      return (width + 3) / 4 * 5;
-    case PixelFormat::kMjpeg:
-      return 0;
-  }
-  return 0;
-}
 
 Status check_layout(const RawImage& image) {
   if (const Status size = check_size(image); !size) return size;

@@ -79,6 +79,11 @@ Image colour_image(const RawImage& frame) {
   return rgb;
 }
 
+Image colour_of_bayer(const RawImage& frame) {
+  const BayerLayout layout = bayer_of(frame.format).value();
+  return demosaic(bayer_samples(frame, layout), layout.order);
+}
+
 std::vector<std::uint8_t> encode_luma_chroma(const RawImage& frame, int quality) {
   const LumaChroma rows(frame);
   const auto sampling = frame.format == PixelFormat::kYuyv ? jpeg::ChromaSampling::kHalfWidth
@@ -97,7 +102,7 @@ Result<Image> grey_of(const RawImage& frame) {
     return of_stream_size(jpeg::decode_grey(frame.bytes, kFrameName), frame);
   }
   if (frame.format == PixelFormat::kRgb24) return grey_of_rgb(packed(frame, 3));
-  return grey_of_rgb(demosaic(bayer_samples(frame)));
+  return grey_of_rgb(colour_of_bayer(frame));
 }
 
 Result<Image> rgb_of(const RawImage& frame) {
@@ -108,7 +113,7 @@ Result<Image> rgb_of(const RawImage& frame) {
     return of_stream_size(jpeg::decode_rgb(frame.bytes, kFrameName), frame);
   }
   if (frame.format == PixelFormat::kRgb24) return packed(frame, 3);
-  return demosaic(bayer_samples(frame));
+  return colour_of_bayer(frame);
 }
 
 Result<std::vector<std::uint8_t>> jpeg_of(const RawImage& frame, int quality) {

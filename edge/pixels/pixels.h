@@ -16,7 +16,7 @@ namespace plumbline::pixels {
 // Y'CbCr is BT.601's, in the range that the frame states; out come always 0 to 255. What a camera
 // writes outside of the limited range (footroom below 16, headroom above 235) is clipped.
 // Bayer is interpolated bilinearly, borders by mirroring; samples stay linear in light and without
-// white balance; of 10 bits the upper 8 are kept.
+// white balance; of more than 8 bits the upper 8 are kept.
 
 // One channel. Of YUYV, NV12 and MJPEG this is Y, made from no other channel; else JPEG's weights:
 // 0.299 red + 0.587 green + 0.114 blue.

@@ -196,7 +196,7 @@ CLI::App* add_shot(CLI::App& camera, const std::shared_ptr<CameraArguments>& arg
   shot->add_option("--device", arguments->device,
                    "/dev/videoN or libcamera:ID, as listed (default: the first)");
   shot->add_option("--size", arguments->size, "WIDTHxHEIGHT in pixels (default: the largest)");
-  shot->add_option("--format", arguments->format, "GREY, YUYV, NV12, MJPG, RGB3, RGGB, RG10, pRAA");
+  shot->add_option("--format", arguments->format, pixel_format_names());
   shot->add_option("--exposure", arguments->exposure_ms, "Longest exposure in ms (default: 2)")
       ->check(CLI::PositiveNumber);
   shot->add_option("--gain", arguments->gain, "Fixed gain (default: the camera's choice)")

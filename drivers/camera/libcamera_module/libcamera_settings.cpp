@@ -15,15 +15,36 @@ namespace controls = libcamera::controls;
 namespace formats = libcamera::formats;
 
 // libcamera names RGB formats as DRM does, from the highest bits down: BGR888 has red first.
-const std::array<std::pair<libcamera::PixelFormat, PixelFormat>, 8> kFormats = {{
+const std::array<std::pair<libcamera::PixelFormat, PixelFormat>, 29> kFormats = {{
     {formats::R8, PixelFormat::kGrey},
     {formats::YUYV, PixelFormat::kYuyv},
     {formats::NV12, PixelFormat::kNv12},
     {formats::MJPEG, PixelFormat::kMjpeg},
     {formats::BGR888, PixelFormat::kRgb24},
     {formats::SRGGB8, PixelFormat::kRggb8},
+    {formats::SGRBG8, PixelFormat::kGrbg8},
+    {formats::SGBRG8, PixelFormat::kGbrg8},
+    {formats::SBGGR8, PixelFormat::kBggr8},
     {formats::SRGGB10, PixelFormat::kRggb10},
+    {formats::SGRBG10, PixelFormat::kGrbg10},
+    {formats::SGBRG10, PixelFormat::kGbrg10},
+    {formats::SBGGR10, PixelFormat::kBggr10},
     {formats::SRGGB10_CSI2P, PixelFormat::kRggb10Packed},
+    {formats::SGRBG10_CSI2P, PixelFormat::kGrbg10Packed},
+    {formats::SGBRG10_CSI2P, PixelFormat::kGbrg10Packed},
+    {formats::SBGGR10_CSI2P, PixelFormat::kBggr10Packed},
+    {formats::SRGGB12, PixelFormat::kRggb12},
+    {formats::SGRBG12, PixelFormat::kGrbg12},
+    {formats::SGBRG12, PixelFormat::kGbrg12},
+    {formats::SBGGR12, PixelFormat::kBggr12},
+    {formats::SRGGB12_CSI2P, PixelFormat::kRggb12Packed},
+    {formats::SGRBG12_CSI2P, PixelFormat::kGrbg12Packed},
+    {formats::SGBRG12_CSI2P, PixelFormat::kGbrg12Packed},
+    {formats::SBGGR12_CSI2P, PixelFormat::kBggr12Packed},
+    {formats::SRGGB16, PixelFormat::kRggb16},
+    {formats::SGRBG16, PixelFormat::kGrbg16},
+    {formats::SGBRG16, PixelFormat::kGbrg16},
+    {formats::SBGGR16, PixelFormat::kBggr16},
 }};
 
 template <typename T>

@@ -61,5 +61,26 @@ TEST(ModeChoice, SaysWhatThereIsWhereNothingFits) {
   EXPECT_THAT(choose_mode({}, {}).error().sentence, HasSubstr("no pixel format"));
 }
 
+const std::vector<CameraMode> kSensor = {{4056, 3040, PixelFormat::kNv12, 10.0},
+                                         {4056, 3040, PixelFormat::kBggr10Packed, 10.0},
+                                         {4056, 3040, PixelFormat::kBggr12, 8.0},
+                                         {4056, 3040, PixelFormat::kBggr12Packed, 8.0},
+                                         {2028, 1520, PixelFormat::kBggr16, 40.0}};
+
+TEST(ModeChoice, TakesAllBitsInTheFewestBytesWhereRawFramesAreWanted) {
+  CameraOptions options;
+  EXPECT_EQ(choose_mode(kSensor, options)->format, PixelFormat::kNv12);
+  options.raw = true;
+  EXPECT_EQ(choose_mode(kSensor, options)->format, PixelFormat::kBggr12Packed);
+  EXPECT_EQ(choose_mode(kSensor, options)->width_px, 4056);
+}
+
+TEST(ModeChoice, SaysWhereThereAreNoRawFrames) {
+  CameraOptions options;
+  options.raw = true;
+  EXPECT_THAT(choose_mode(kWebcam, options).error().sentence,
+              HasSubstr("no mode of raw frames; it has 1920 x 1080 YUYV"));
+}
+
 }  // namespace
 }  // namespace plumbline

@@ -5,31 +5,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <opencv2/imgproc.hpp>
 #include <string>
 
 #include "edge/jpeg/jpeg.h"
+#include "tests/edge/pixels/largest_difference.h"
 #include "tests/edge/pixels/random_frame.h"
 
 namespace plumbline::pixels {
 namespace {
 
 using ::testing::HasSubstr;
-
-int largest_difference(const Image& image, const cv::Mat& reference, int border = 0) {
-  int largest = 0;
-  for (int v = border; v < image.height_px - border; ++v) {
-    for (int u = border; u < image.width_px - border; ++u) {
-      for (int c = 0; c < image.channels; ++c) {
-        const int ours = image.data[image.index(u, v) + static_cast<std::size_t>(c)];
-        const int theirs = reference.ptr<std::uint8_t>(v)[u * image.channels + c];
-        largest = std::max(largest, std::abs(ours - theirs));
-      }
-    }
-  }
-  return largest;
-}
 
 cv::Mat matrix_over(RandomFrame& frame, int rows, int width, int type) {
   return {rows, width, type, frame.bytes.data(), frame.image.stride_bytes};
@@ -95,51 +81,6 @@ TEST(Pixels, TakesGreyFromLumaAloneAndWidensTheLimitedRange) {
   EXPECT_EQ(grey_of(frame.image)->data, (std::vector<std::uint8_t>{0, 255, 128, 0}));
 }
 
-TEST(Pixels, DemosaicsAsOpenCvDoesWithinTheBorder) {
-  RandomFrame frame(PixelFormat::kRggb8, 64, 48, 8, 5);
-  cv::Mat reference;
-  // OpenCV names a pattern by the second row's second and third sample: RGGB is BG.
-  cv::cvtColor(matrix_over(frame, 48, 64, CV_8UC1), reference, cv::COLOR_BayerBG2RGB);
-  const auto rgb = rgb_of(frame.image);
-  ASSERT_TRUE(rgb) << rgb.error().sentence;
-  EXPECT_EQ(largest_difference(*rgb, reference, 1), 0);
-}
-
-TEST(Pixels, DemosaicsAFlatColourFlatUpToTheBorder) {
-  RandomFrame frame(PixelFormat::kRggb8, 8, 6, 0, 6);
-  for (std::size_t i = 0; i < frame.bytes.size(); ++i) {
-    const std::size_t u = i % 8;
-    const std::size_t v = i / 8;
-    frame.bytes[i] = (u + v) % 2 == 1 ? 120 : v % 2 == 0 ? 200 : 40;
-  }
-  const auto rgb = rgb_of(frame.image);
-  ASSERT_TRUE(rgb);
-  for (std::size_t i = 0; i < rgb->data.size(); i += 3) {
-    EXPECT_EQ(rgb->data[i], 200);
-    EXPECT_EQ(rgb->data[i + 1], 120);
-    EXPECT_EQ(rgb->data[i + 2], 40);
-  }
-}
-
-// The same samples in 8 bits, in 10 of 16, and in 10 packed must give the same image.
-TEST(Pixels, KeepsTheUpperEightOfTenBitsPackedOrNot) {
-  RandomFrame of_8(PixelFormat::kRggb8, 12, 4, 0, 7);
-  RandomFrame of_10(PixelFormat::kRggb10, 12, 4, 6, 8);
-  RandomFrame packed(PixelFormat::kRggb10Packed, 12, 4, 1, 9);  // lower bits stay noise
-  for (std::size_t v = 0; v < 4; ++v) {
-    for (std::size_t u = 0; u < 12; ++u) {
-      const unsigned sample = 4u * of_8.bytes[12 * v + u] + (u % 4);
-      std::uint8_t* pair = &of_10.bytes[of_10.image.stride_bytes * v + 2 * u];
-      pair[0] = static_cast<std::uint8_t>(sample);
-      pair[1] = static_cast<std::uint8_t>(sample >> 8);
-      packed.bytes[packed.image.stride_bytes * v + u / 4 * 5 + u % 4] =
-          static_cast<std::uint8_t>(sample >> 2);
-    }
-  }
-  EXPECT_EQ(rgb_of(of_10.image)->data, rgb_of(of_8.image)->data);
-  EXPECT_EQ(rgb_of(packed.image)->data, rgb_of(of_8.image)->data);
-}
-
 TEST(Pixels, WeighsColoursToGreyAsOpenCvDoes) {
   RandomFrame frame(PixelFormat::kRgb24, 31, 17, 5, 10);
   cv::Mat reference;
@@ -192,8 +133,7 @@ TEST(Pixels, PassesAWholeJpegThroughAndRefusesACutOne) {
 
 TEST(Pixels, RefusesAFrameThatLacksItsLastByte) {
   for (const PixelFormat format :
-       {PixelFormat::kGrey, PixelFormat::kYuyv, PixelFormat::kNv12, PixelFormat::kRgb24,
-        PixelFormat::kRggb8, PixelFormat::kRggb10, PixelFormat::kRggb10Packed}) {
+       {PixelFormat::kGrey, PixelFormat::kYuyv, PixelFormat::kNv12, PixelFormat::kRgb24}) {
     RandomFrame frame(format, 16, 8, 0, 14);
     EXPECT_TRUE(grey_of(frame.image)) << name_of(format);
     frame.image.bytes = frame.image.bytes.first(frame.bytes.size() - 1);
@@ -211,12 +151,6 @@ TEST(Pixels, RefusesSizesThatAFormatCannotHave) {
   EXPECT_THAT(rgb_of(frame.image).error().sentence, HasSubstr("not possible"));
   frame.image.width_px = 18;
   EXPECT_THAT(rgb_of(frame.image).error().sentence, HasSubstr("claims rows of 16 bytes"));
-}
-
-TEST(PixelFormat, IsNamedInEitherCase) {
-  EXPECT_EQ(*pixel_format_of("nv12"), PixelFormat::kNv12);
-  EXPECT_EQ(*pixel_format_of("praa"), PixelFormat::kRggb10Packed);
-  EXPECT_THAT(pixel_format_of("H264").error().sentence, HasSubstr("GREY, YUYV, NV12"));
 }
 
 }  // namespace
