@@ -26,6 +26,7 @@ struct Frame {
   ExposureTiming timing;
   std::optional<double> gain;  // 1: none
   std::optional<double> lens_position_dioptre;
+  RawColour colour;  // of a Bayer frame
   std::shared_ptr<const RawImage> image;
 };
 

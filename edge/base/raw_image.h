@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "edge/base/pixel_format.h"
@@ -25,6 +27,15 @@ struct RawImage {
   std::size_t second_plane_offset = 0;  // kNv12: where U V begin; their stride is that of Y
   LumaRange range = LumaRange::kFull;   // kYuyv, kNv12
   std::span<const std::uint8_t> bytes;  // of all planes; valid as long as the frame is held
+};
+
+// What a driver knows of the colours of a Bayer frame.
+struct RawColour {
+  // What a sample is without light, as a share of 2^bits: of red, of green in red's rows, of green
+  // in blue's rows, of blue.
+  std::optional<std::array<double, 4>> black;
+  // By which red and blue are multiplied so that what is grey has as much of them as of green; > 0.
+  std::optional<std::array<double, 2>> gains;
 };
 
 // Whether all pixels lie within the bytes. An error says what is short: a camera's frame was cut,
