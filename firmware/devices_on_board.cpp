@@ -93,19 +93,20 @@ ReceiverResult make_receiver(const std::string& address, const Clock& clock) {
 
 std::vector<SerialPortInfo> list_serial_ports() { return posix::list_serial_ports(); }
 
-Result<std::unique_ptr<Camera>> make_camera(const std::string& id) {
+Result<std::unique_ptr<Camera>> make_camera(const std::string& id, const Clock& clock) {
   if (!id.starts_with(kLibcamera)) {
-    return {std::unique_ptr<Camera>(std::make_unique<V4l2Camera>(id))};
+    return {std::unique_ptr<Camera>(std::make_unique<V4l2Camera>(id, clock))};
   }
   if (!camera_module()) return camera_module().error();
-  return camera_module()->make(id.substr(kLibcamera.size()));
+  return camera_module()->make(id.substr(kLibcamera.size()), clock);
 }
 
 CamerasOnBoard list_cameras() {
   CamerasOnBoard found;
+  const std::unique_ptr<Clock> clock = make_clock();
   if (camera_module()) {
     for (const std::string& id : camera_module()->list()) {
-      add(camera_module()->make(id)->describe(), std::string(kLibcamera) + id, found);
+      add(camera_module()->make(id, *clock)->describe(), std::string(kLibcamera) + id, found);
     }
   } else {
     found.remarks.push_back(camera_module().error().sentence);

@@ -26,8 +26,8 @@ std::vector<SerialPortInfo> list_serial_ports();
 
 // A camera by its id: a video device ("/dev/video0" or a link to one) or "libcamera:" and the id
 // that libcamera gives it. Fails where libcamera is asked for and cannot be had; whether the camera
-// is there is start()'s business.
-Result<std::unique_ptr<Camera>> make_camera(const std::string& id);
+// is there is start()'s business. `clock` outlives the camera.
+Result<std::unique_ptr<Camera>> make_camera(const std::string& id, const Clock& clock);
 
 struct CamerasOnBoard {
   std::vector<CameraDescription> cameras;  // ids as make_camera() takes them, best first

@@ -63,8 +63,8 @@ Result<CameraModule> CameraModule::load(const std::vector<std::string>& folders)
                kOtherwise + "."};
 }
 
-std::unique_ptr<Camera> CameraModule::make(const std::string& id) const {
-  return std::unique_ptr<Camera>(module_->make(id.c_str()));
+std::unique_ptr<Camera> CameraModule::make(const std::string& id, const Clock& clock) const {
+  return std::unique_ptr<Camera>(module_->make(id.c_str(), &clock));
 }
 
 std::vector<std::string> CameraModule::list() const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "drivers/camera.h"
+#include "drivers/clock.h"
 #include "edge/base/result.h"
 
 // The libcamera driver is a shared object of its own, because each libcamera 0.x is an incompatible
@@ -19,8 +20,9 @@ struct PlumblineCameraModule {
   std::uint32_t abi_version;
   std::uint32_t sizes;    // plumbline::module_sizes()
   const char* libcamera;  // "0.0.3", which it was built for and runs with
-  // A camera for an id that list() names, or that may come; never nullptr. To be deleted.
-  plumbline::Camera* (*make)(const char* id);
+  // A camera for an id that list() names, or that may come; never nullptr. To be deleted, before
+  // the clock is.
+  plumbline::Camera* (*make)(const char* id, const plumbline::Clock* clock);
   // Calls `found` with the id of each camera that there is.
   void (*list)(void* context, void (*found)(void* context, const char* id));
 };
@@ -31,7 +33,7 @@ using PlumblineCameraModuleEntry = const PlumblineCameraModule* (*)();
 
 namespace plumbline {
 
-inline constexpr std::uint32_t kCameraModuleAbi = 1;
+inline constexpr std::uint32_t kCameraModuleAbi = 2;
 inline constexpr const char* kCameraModuleEntry = "plumbline_camera_module";
 inline constexpr const char* kCameraModuleFile = "plumbline_libcamera.so";
 
@@ -48,7 +50,8 @@ class CameraModule {
   // module, the libcamera that it was built for, or a rebuild.
   static Result<CameraModule> load(const std::vector<std::string>& folders);
 
-  std::unique_ptr<Camera> make(const std::string& id) const;
+  // `clock` outlives the camera; it is that by which the kernel stamps frames (CLOCK_MONOTONIC).
+  std::unique_ptr<Camera> make(const std::string& id, const Clock& clock) const;
   std::vector<std::string> list() const;
   std::string libcamera_version() const { return module_->libcamera; }
 

@@ -9,8 +9,6 @@
 #include <cerrno>
 #include <utility>
 
-#include "drivers/camera/monotonic.h"
-
 namespace plumbline {
 namespace {
 
@@ -26,18 +24,14 @@ void lower(int event_fd) {
   [[maybe_unused]] const ssize_t read = ::read(event_fd, &count, sizeof count);
 }
 
-int milliseconds_until(HostTime deadline) {
-  const auto left = std::chrono::ceil<milliseconds>(deadline - monotonic_now()).count();
-  return static_cast<int>(std::clamp<std::int64_t>(left, 0, 60'000));
-}
-
 CameraState state_of(int error) {
   return error == ENODEV || error == ENXIO ? CameraState::kAbsent : CameraState::kFailing;
 }
 
 }  // namespace
 
-V4l2Camera::V4l2Camera(std::string path) : path_(std::move(path)), watch_("'" + path_ + "'") {}
+V4l2Camera::V4l2Camera(std::string path, const Clock& clock)
+    : path_(std::move(path)), clock_(clock), watch_("'" + path_ + "'") {}
 
 V4l2Camera::~V4l2Camera() { stop(); }
 
@@ -92,7 +86,7 @@ void V4l2Camera::run() {
       session_.reset();
     }
     short happened = 0;
-    wait(0, monotonic_now() + watch_.next_retry(), happened);
+    wait(0, clock_.now() + watch_.next_retry(), happened);
     if (!stopping_) open_session();
   }
   session_.reset();
@@ -132,7 +126,7 @@ void V4l2Camera::adopt(std::unique_ptr<V4l2Session> session) {
   if (identity_.card.empty()) identity_ = session_->identity();
   if (interior_ && !(*interior_ == session_->interior())) ++interior_number_;
   interior_ = session_->interior();
-  const HostTime now = monotonic_now();
+  const HostTime now = clock_.now();
   for (const std::string& notice : session_->notices()) {
     if (std::find(said_.begin(), said_.end(), notice) != said_.end()) continue;
     said_.push_back(notice);
@@ -144,7 +138,7 @@ void V4l2Camera::adopt(std::unique_ptr<V4l2Session> session) {
 }
 
 void V4l2Camera::fail(CameraState state, const std::string& sentence) {
-  send(watch_.failed(monotonic_now(), state, sentence));
+  send(watch_.failed(clock_.now(), state, sentence));
 }
 
 // Until the session is of no more use.
@@ -153,7 +147,7 @@ void V4l2Camera::stream() {
     take_new_limit();
     short happened = 0;
     if (wait(POLLIN | POLLPRI, watch_.stall_deadline(), happened)) continue;
-    const HostTime now = monotonic_now();
+    const HostTime now = clock_.now();
     if (happened & POLLPRI) take_events();
     const bool none_came = (happened & (POLLIN | POLLERR | POLLHUP)) != 0 && take_frames() == 0;
     if (session_ && none_came && (happened & POLLERR) != 0) fail_to_read(EIO);
@@ -164,6 +158,11 @@ void V4l2Camera::stream() {
     send(stalled);
     if (watch_.is_lost(now)) return;
   }
+}
+
+int V4l2Camera::milliseconds_until(HostTime deadline) const {
+  const auto left = std::chrono::ceil<milliseconds>(deadline - clock_.now()).count();
+  return static_cast<int>(std::clamp<std::int64_t>(left, 0, 60'000));
 }
 
 // True if only woken by stop() or limit_exposure().
@@ -186,7 +185,7 @@ bool V4l2Camera::take_frame() {
   v4l2_buffer buffer{};
   const int error = session_->dequeue(buffer);
   if (error == 0) {
-    hand_out(buffer, monotonic_now());
+    hand_out(buffer, clock_.now());
     return true;
   }
   if (error != EAGAIN) fail_to_read(error);
@@ -227,8 +226,8 @@ void V4l2Camera::take_events() {
   if (lens_moved) {
     ++interior_number_;
     interior_ = session_->interior();
-    send(CameraNotice{monotonic_now(), "The lens of camera '" + path_ +
-                                           "' was moved: from here on it is another camera."});
+    send(CameraNotice{clock_.now(), "The lens of camera '" + path_ +
+                                        "' was moved: from here on it is another camera."});
   }
   if (changed) session_.reset();
 }

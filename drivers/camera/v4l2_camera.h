@@ -13,6 +13,7 @@
 #include "drivers/camera/camera_watch.h"
 #include "drivers/camera/frame_account.h"
 #include "drivers/camera/v4l2_session.h"
+#include "drivers/clock.h"
 
 namespace plumbline {
 
@@ -21,7 +22,8 @@ namespace plumbline {
 // delivers; a camera that comes back under another name is known by its model and its socket.
 class V4l2Camera : public Camera {
  public:
-  explicit V4l2Camera(std::string path);
+  // `clock` outlives it, and is that by which the kernel stamps frames.
+  V4l2Camera(std::string path, const Clock& clock);
   ~V4l2Camera() override;
 
   Status start(const CameraOptions& options, Sink sink) override;
@@ -42,11 +44,13 @@ class V4l2Camera : public Camera {
   void fail(CameraState state, const std::string& sentence);
   void adopt(std::unique_ptr<V4l2Session> session);
   std::optional<std::string> device_path() const;
+  int milliseconds_until(HostTime deadline) const;
   bool wait(short events, HostTime deadline, short& happened);
   void send(CameraEvent event) { sink_(std::move(event)); }
   void send(std::optional<CameraReport> report);
 
   const std::string path_;
+  const Clock& clock_;
   CameraOptions options_;
   Sink sink_;
   std::thread thread_;

@@ -169,7 +169,8 @@ Status shoot(const CameraArguments& arguments) {
   if (!options) return options.error();
   const Result<std::string> device = chosen_device(arguments);
   if (!device) return device.error();
-  const Result<std::unique_ptr<Camera>> camera = make_camera(*device);
+  const std::unique_ptr<Clock> clock = make_clock();
+  const Result<std::unique_ptr<Camera>> camera = make_camera(*device, *clock);
   if (!camera) return camera.error();
   const Result<Shot> shot =
       take_shot(**camera, *options, [](Signal& signal, std::chrono::nanoseconds longest) {

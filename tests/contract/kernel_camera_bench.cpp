@@ -6,8 +6,8 @@
 #include <thread>
 
 #include "drivers/camera/camera_module.h"
-#include "drivers/camera/monotonic.h"
 #include "drivers/camera/v4l2_camera.h"
+#include "drivers/posix/system_clock.h"
 
 namespace plumbline::contract {
 namespace {
@@ -45,7 +45,7 @@ class KernelCameraBench : public CameraBench {
     return options;
   }
 
-  HostTime now() override { return monotonic_now(); }
+  HostTime now() override { return clock_.now(); }
   void pass(std::chrono::nanoseconds time) override { std::this_thread::sleep_for(time); }
 
   bool inflict(CameraFault fault) override {
@@ -73,8 +73,8 @@ class KernelCameraBench : public CameraBench {
 
  private:
   // "libcamera:" alone is the first that there is.
-  static std::unique_ptr<Camera> camera_of(const std::string& id) {
-    if (!id.starts_with(kLibcamera)) return std::make_unique<V4l2Camera>(id);
+  std::unique_ptr<Camera> camera_of(const std::string& id) {
+    if (!id.starts_with(kLibcamera)) return std::make_unique<V4l2Camera>(id, clock_);
     static const Result<CameraModule> module = CameraModule::load(camera_module_folders());
     if (!module) {
       ADD_FAILURE() << module.error().sentence;
@@ -82,7 +82,7 @@ class KernelCameraBench : public CameraBench {
     }
     const std::string name = id.substr(kLibcamera.size());
     const std::vector<std::string> found = module->list();
-    return module->make(name.empty() && !found.empty() ? found.front() : name);
+    return module->make(name.empty() && !found.empty() ? found.front() : name, clock_);
   }
 
   // By name, because the numbers of vivid's controls are in no header.
@@ -102,6 +102,7 @@ class KernelCameraBench : public CameraBench {
   }
 
   std::string id_;
+  posix::SystemClock clock_;
 };
 
 }  // namespace

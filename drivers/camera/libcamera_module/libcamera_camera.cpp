@@ -7,8 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "drivers/camera/monotonic.h"
-
 namespace plumbline {
 namespace {
 
@@ -47,8 +45,11 @@ libcamera::CameraManager& camera_manager() {
   return *manager;
 }
 
-LibcameraCamera::LibcameraCamera(std::string id)
-    : id_(std::move(id)), mailbox_(std::make_shared<Mailbox>()), watch_("'" + id_ + "'") {}
+LibcameraCamera::LibcameraCamera(std::string id, const Clock& clock)
+    : id_(std::move(id)),
+      clock_(clock),
+      mailbox_(std::make_shared<Mailbox>()),
+      watch_("'" + id_ + "'") {}
 
 LibcameraCamera::~LibcameraCamera() { stop(); }
 
@@ -154,7 +155,7 @@ void LibcameraCamera::run() {
       stream();
       close();
     }
-    if (wait_until(monotonic_now() + watch_.next_retry())) return;
+    if (wait_until(clock_.now() + watch_.next_retry())) return;
     LibcameraFailure failure;
     std::unique_ptr<LibcameraSession> session = open(failure);
     if (session) {
@@ -171,7 +172,7 @@ void LibcameraCamera::adopt(std::unique_ptr<LibcameraSession> session) {
   if (mode_ && !same_mode(*mode_, session_->layout())) ++interior_number_;
   mode_ = session_->layout();
   last_stamp_.reset();
-  const HostTime now = monotonic_now();
+  const HostTime now = clock_.now();
   for (const std::string& notice : session_->notices()) {
     if (std::find(said_.begin(), said_.end(), notice) != said_.end()) continue;
     said_.push_back(notice);
@@ -196,7 +197,7 @@ void LibcameraCamera::stream() {
   while (!session_failed_) {
     if (wait_until(watch_.stall_deadline())) return;
     const bool all_lent = take_letters();
-    const HostTime now = monotonic_now();
+    const HostTime now = clock_.now();
     if (all_lent) watch_.excused(now);
     judge_silence(now);
     if (watch_.is_lost(now)) return;
@@ -270,7 +271,7 @@ void LibcameraCamera::hand_out(libcamera::Request* request) {
     requeue(request);
     return;
   }
-  const HostTime now = monotonic_now();
+  const HostTime now = clock_.now();
   const auto sensor_ns = request->metadata().get(libcamera::controls::SensorTimestamp);
   const HostTime stamp =
       host_time_of(sensor_ns.value_or(static_cast<std::int64_t>(taken.timestamp)), now);
@@ -359,14 +360,14 @@ void LibcameraCamera::note_lens(const libcamera::ControlList& metadata) {
   if (lens_position_ && std::abs(now_at - *lens_position_) < kLensMovedDioptre) return;
   if (lens_position_) {
     ++interior_number_;
-    send(CameraNotice{monotonic_now(), "The lens of camera '" + id_ +
-                                           "' was moved: from here on it is another camera."});
+    send(CameraNotice{clock_.now(), "The lens of camera '" + id_ +
+                                        "' was moved: from here on it is another camera."});
   }
   lens_position_ = now_at;
 }
 
 void LibcameraCamera::fail(CameraState state, const std::string& sentence) {
-  send(watch_.failed(monotonic_now(), state, sentence));
+  send(watch_.failed(clock_.now(), state, sentence));
 }
 
 void LibcameraCamera::send(std::optional<CameraReport> report) {

@@ -15,6 +15,7 @@
 #include "drivers/camera/exposure_model.h"
 #include "drivers/camera/frame_account.h"
 #include "drivers/camera/libcamera_module/libcamera_session.h"
+#include "drivers/clock.h"
 
 namespace plumbline {
 
@@ -25,7 +26,8 @@ libcamera::CameraManager& camera_manager();
 // hands it what completed.
 class LibcameraCamera : public Camera {
  public:
-  explicit LibcameraCamera(std::string id);
+  // `clock` outlives it, and is that by which the kernel stamps frames.
+  LibcameraCamera(std::string id, const Clock& clock);
   ~LibcameraCamera() override;
 
   Status start(const CameraOptions& options, Sink sink) override;
@@ -67,6 +69,7 @@ class LibcameraCamera : public Camera {
   void send(std::optional<CameraReport> report);
 
   const std::string id_;
+  const Clock& clock_;
   CameraOptions options_;
   Sink sink_;
   std::thread thread_;

@@ -6,7 +6,9 @@
 
 namespace {
 
-plumbline::Camera* make(const char* id) { return new plumbline::LibcameraCamera(id); }
+plumbline::Camera* make(const char* id, const plumbline::Clock* clock) {
+  return new plumbline::LibcameraCamera(id, *clock);
+}
 
 void list(void* context, void (*found)(void* context, const char* id)) {
   for (const auto& camera : plumbline::camera_manager().cameras()) {
