@@ -94,6 +94,7 @@ std::optional<V4l2Failure> V4l2Session::configure(std::optional<std::int64_t> fo
                        identity_.why_not};
   }
   show_whole_sensor();
+  stand_upright();
   if (auto failed = set_mode()) return failed;
   controls_ = controls_of(device_);
   apply(plan_controls(controls_, options_, focus));
@@ -116,6 +117,14 @@ void V4l2Session::show_whole_sensor() {
   if (device_.call(VIDIOC_G_SELECTION, &whole) != 0) return;
   whole.target = V4L2_SEL_TGT_CROP;
   device_.call(VIDIOC_S_SELECTION, &whole);
+}
+
+// Before the mode is chosen, because a Bayer sensor that is mirrored has another order of colours.
+void V4l2Session::stand_upright() {
+  for (const std::uint32_t id : {V4L2_CID_HFLIP, V4L2_CID_VFLIP, V4L2_CID_ROTATE}) {
+    v4l2_control upright{id, 0};
+    device_.call(VIDIOC_S_CTRL, &upright);  // many have none, and of what is refused apply() tells
+  }
 }
 
 std::optional<V4l2Failure> V4l2Session::set_mode() {

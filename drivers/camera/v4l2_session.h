@@ -71,6 +71,7 @@ class V4l2Session {
   int set_format(const CameraMode& mode);
   void set_rate(const CameraMode& mode);
   void show_whole_sensor();
+  void stand_upright();
   void apply(const ControlPlan& plan);
   void set_control(const ControlSetting& setting);
   void read_interior();

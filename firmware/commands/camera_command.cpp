@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "firmware/commands/camera_command.h"
 
+#include <cctype>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -112,12 +113,25 @@ Status read_size(const std::string& text, CameraOptions& options) {
   return Done{};
 }
 
+// Whether the file is to be a raw one, by its name.
+bool names_a_raw_file(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  for (char& letter : extension)
+    letter = static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  return extension == ".dng";
+}
+
 Result<ShotOptions> options_of(const CameraArguments& arguments) {
   ShotOptions options;
+  options.camera.raw = names_a_raw_file(arguments.out);
   if (const Status size = read_size(arguments.size, options.camera); !size) return size.error();
   if (!arguments.format.empty()) {
     const auto format = pixel_format_of(arguments.format);
     if (!format) return format.error();
+    if (options.camera.raw && !bayer_of(*format)) {
+      return Error{name_of(*format) + " is no raw format, and '" + arguments.out +
+                   "' a raw file: name a Bayer format, as SRGGB10, or a file that ends in .jpg."};
+    }
     options.camera.format = *format;
   }
   if (arguments.exposure_ms > 0) {
@@ -129,13 +143,13 @@ Result<ShotOptions> options_of(const CameraArguments& arguments) {
   return options;
 }
 
-Status write_photo(const std::string& path, const std::vector<std::uint8_t>& jpeg) {
+Status write_photo(const std::string& path, const std::vector<std::uint8_t>& content) {
   const std::filesystem::path file(path);
   std::error_code error;
   if (std::filesystem::exists(file, error)) {
     return Error{"'" + path + "' is there already; remove it or name another with --out."};
   }
-  const int code = deliver::write_durably(file, {jpeg.begin(), jpeg.end()});
+  const int code = deliver::write_durably(file, {content.begin(), content.end()});
   if (code == 0) return Done{};
   return Error{deliver::why_not_written(file.parent_path(), code)};
 }
@@ -147,7 +161,7 @@ void print_shot(const Shot& shot, const std::string& device, const CameraArgumen
                              {"device", device},
                              {"width_px", shot.width_px},
                              {"height_px", shot.height_px},
-                             {"bytes", shot.jpeg.size()},
+                             {"bytes", shot.file.size()},
                              {"exposure_ms", ms(timing.exposure)},
                              {"row_time_ms", ms(timing.row_time)},
                              {"sigma_of_time_ms", ms(timing.sigma)},
@@ -161,7 +175,7 @@ void print_shot(const Shot& shot, const std::string& device, const CameraArgumen
   for (const std::string& notice : shot.notices) std::fprintf(stderr, "%s\n", notice.c_str());
   std::printf("%s: %d x %d px from %s, %zu bytes, exposed %.3f ms, its time known to %.1f ms\n",
               arguments.out.c_str(), shot.width_px, shot.height_px, device.c_str(),
-              shot.jpeg.size(), ms(timing.exposure), ms(timing.sigma));
+              shot.file.size(), ms(timing.exposure), ms(timing.sigma));
 }
 
 Status shoot(const CameraArguments& arguments) {
@@ -177,7 +191,7 @@ Status shoot(const CameraArguments& arguments) {
         if (signal.take_until(std::chrono::steady_clock::now() + longest)) signal.raise();
       });
   if (!shot) return shot.error();
-  if (const Status written = write_photo(arguments.out, shot->jpeg); !written) return written;
+  if (const Status written = write_photo(arguments.out, shot->file); !written) return written;
   print_shot(*shot, *device, arguments);
   return Done{};
 }
@@ -203,7 +217,8 @@ CLI::App* add_shot(CLI::App& camera, const std::shared_ptr<CameraArguments>& arg
   shot->add_option("--gain", arguments->gain, "Fixed gain (default: the camera's choice)")
       ->check(CLI::PositiveNumber);
   shot->add_option("--rate", arguments->rate, "Frames a second")->check(CLI::PositiveNumber);
-  shot->add_option("--out", arguments->out, "JPEG file to write (shot.jpg); must be new");
+  shot->add_option("--out", arguments->out,
+                   "JPEG file to write, or raw (.dng); must be new (default: shot.jpg)");
   shot->add_flag("--json", arguments->json, "What was taken as one JSON object");
   return shot;
 }
@@ -217,7 +232,9 @@ void add_camera(CLI::App& app, int& status) {
   camera->require_subcommand(0, 1);
   add_list(*camera, arguments);
   const CLI::App* shot = add_shot(*camera, arguments);
-  camera->footer("Example: plumbline camera shot --size 1920x1080 --exposure 1 --out test.jpg");
+  camera->footer(
+      "Example: plumbline camera shot --size 1920x1080 --exposure 1 --out test.jpg\n"
+      "         plumbline camera shot --format SRGGB10 --out test.dng");
   camera->callback([arguments, shot, &status] {
     status = status_of(shot->parsed() ? shoot(*arguments) : list(*arguments));
   });

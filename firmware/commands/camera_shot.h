@@ -14,14 +14,14 @@
 namespace plumbline::commands {
 
 struct ShotOptions {
-  CameraOptions camera;
+  CameraOptions camera;                       // with `raw` the file is a DNG, else a JPEG
   std::chrono::milliseconds settle{1000};     // frames of so long are let by: gain finds the light
   std::chrono::milliseconds patience{10000};  // without a photo after that it has failed
-  int quality = 95;
+  int quality = 95;                           // of a JPEG
 };
 
 struct Shot {
-  std::vector<std::uint8_t> jpeg;
+  std::vector<std::uint8_t> file;
   int width_px = 0;
   int height_px = 0;
   Frame frame;                       // without its image

@@ -4,6 +4,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -29,6 +30,19 @@ HostTime host_time_of(std::int64_t stamp_ns, HostTime now) {
 
 // A lens that is not told to move still reports with noise in the last digits.
 constexpr double kLensMovedDioptre = 0.02;
+
+RawColour raw_colour_of(const libcamera::ControlList& metadata) {
+  RawColour colour;
+  if (const auto levels = metadata.get(libcamera::controls::SensorBlackLevels)) {
+    std::array<double, 4>& black = colour.black.emplace();
+    for (std::size_t i = 0; i < 4; ++i) black[i] = (*levels)[i] / 65536.0;  // of 16 bits
+  }
+  const auto gains = metadata.get(libcamera::controls::ColourGains);
+  if (gains && (*gains)[0] > 0 && (*gains)[1] > 0) {
+    colour.gains = {static_cast<double>((*gains)[0]), static_cast<double>((*gains)[1])};
+  }
+  return colour;
+}
 
 bool same_mode(const RawImage& a, const RawImage& b) {
   return a.width_px == b.width_px && a.height_px == b.height_px && a.format == b.format;
@@ -102,9 +116,7 @@ Result<CameraDescription> LibcameraCamera::describe() {
                  "'; plug it in, or look which there are with plumbline camera."};
   }
   CameraDescription description{id_, model_of(*camera), "libcamera", {}, {}};
-  const auto configuration =
-      compat::configuration_for(*camera, libcamera::StreamRole::StillCapture);
-  if (configuration) description.modes = modes_of(*configuration);
+  description.modes = modes_of(*camera);
   description.controls = describe_controls(camera->controls());
   return description;
 }
@@ -299,6 +311,7 @@ void LibcameraCamera::hand_out(libcamera::Request* request) {
     frame.gain = static_cast<double>(*gain);
   }
   frame.lens_position_dioptre = lens_position_;
+  if (bayer_of(image.format)) frame.colour = raw_colour_of(request->metadata());
   frame.image = lend(request, bytes);
   send(std::move(frame));
 }

@@ -124,8 +124,7 @@ LibcameraFailure LibcameraSession::failure(const std::string& what, int result) 
 std::optional<LibcameraFailure> LibcameraSession::configure(std::optional<double> lens_position) {
   if (const int result = camera_->acquire(); result != 0) return failure("open", result);
   acquired_ = true;
-  const auto configuration =
-      compat::configuration_for(*camera_, libcamera::StreamRole::StillCapture);
+  const auto configuration = configuration_for(*camera_, options_);
   if (!configuration || configuration->empty()) return failure("get a mode from", -EINVAL);
   if (auto failed = choose(*configuration)) return failed;
   if (const int result = camera_->configure(configuration.get()); result != 0) {

@@ -127,6 +127,32 @@ std::vector<CameraMode> modes_of(const libcamera::CameraConfiguration& configura
   return modes;
 }
 
+std::vector<CameraMode> modes_of(libcamera::Camera& camera) {
+  std::vector<CameraMode> modes;
+  for (const auto role : {libcamera::StreamRole::StillCapture, libcamera::StreamRole::Raw}) {
+    const auto configuration = compat::configuration_for(camera, role);
+    if (!configuration) continue;
+    for (const CameraMode& mode : modes_of(*configuration)) {
+      const bool known = std::any_of(modes.begin(), modes.end(), [&](const CameraMode& other) {
+        return other.width_px == mode.width_px && other.height_px == mode.height_px &&
+               other.format == mode.format;
+      });
+      if (!known) modes.push_back(mode);
+    }
+  }
+  return modes;
+}
+
+std::unique_ptr<libcamera::CameraConfiguration> configuration_for(libcamera::Camera& camera,
+                                                                  const CameraOptions& options) {
+  const bool raw = options.raw || (options.format && bayer_of(*options.format));
+  if (raw) {
+    auto configuration = compat::configuration_for(camera, libcamera::StreamRole::Raw);
+    if (configuration && !modes_of(*configuration).empty()) return configuration;
+  }
+  return compat::configuration_for(camera, libcamera::StreamRole::StillCapture);
+}
+
 bool set_exposure(const libcamera::ControlInfoMap& offered, const CameraOptions& options,
                   libcamera::ControlList& list) {
   if (!offers(offered, controls::ExposureTime)) return true;

@@ -12,8 +12,16 @@ namespace plumbline {
 
 std::optional<PixelFormat> pixel_format_of(const libcamera::PixelFormat& format);
 
-// The modes of the still configuration: the sensor's full size among them.
+// The modes of a configuration: of stills the sensor's full size is among them.
 std::vector<CameraMode> modes_of(const libcamera::CameraConfiguration& configuration);
+
+// Those of stills and those of raw frames, each once: most pipelines offer Bayer only as the
+// latter.
+std::vector<CameraMode> modes_of(libcamera::Camera& camera);
+
+// What to ask libcamera for: stills, unless raw frames are wanted and may be had. May be nullptr.
+std::unique_ptr<libcamera::CameraConfiguration> configuration_for(libcamera::Camera& camera,
+                                                                  const CameraOptions& options);
 
 // What is set before the first frame, and what cannot be had.
 struct LibcameraSettings {

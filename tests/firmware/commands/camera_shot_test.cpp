@@ -29,7 +29,7 @@ TEST(CameraShot, TakesAPhotoOnceTheCameraHasSettled) {
   const Result<Shot> shot = bench.shoot();
   ASSERT_TRUE(shot) << shot.error().sentence;
   EXPECT_EQ(shot->width_px, 16);
-  EXPECT_EQ(jpeg::read_header(shot->jpeg, "shot")->height_px, 12);
+  EXPECT_EQ(jpeg::read_header(shot->file, "shot")->height_px, 12);
   EXPECT_GE(shot->frame.sequence, 10u) << "one second at 10 frames a second is let by";
 }
 
