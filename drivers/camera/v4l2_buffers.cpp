@@ -23,18 +23,10 @@ struct Lent {
   Lent& operator=(const Lent&) = delete;
 };
 
-v4l2_buffer buffer_at(std::uint32_t index) {
-  v4l2_buffer buffer{};
-  buffer.index = index;
-  buffer.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-  buffer.memory = V4L2_MEMORY_MMAP;
-  return buffer;
-}
-
 int request(const V4l2Device& device, unsigned& count) {
   v4l2_requestbuffers wanted{};
   wanted.count = count;
-  wanted.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  wanted.type = device.capture_type();
   wanted.memory = V4L2_MEMORY_MMAP;
   const int error = device.call(VIDIOC_REQBUFS, &wanted);
   count = wanted.count;
@@ -63,30 +55,32 @@ V4l2Buffers::~V4l2Buffers() {
 }
 
 int V4l2Buffers::map(std::uint32_t index) {
-  v4l2_buffer buffer = buffer_at(index);
-  if (const int error = device_->call(VIDIOC_QUERYBUF, &buffer); error != 0) return error;
-  void* start = ::mmap(nullptr, buffer.length, PROT_READ, MAP_SHARED, device_->fd(),
-                       static_cast<off_t>(buffer.m.offset));
+  V4l2Slot slot(*device_, index);
+  if (const int error = device_->call(VIDIOC_QUERYBUF, slot.argument()); error != 0) return error;
+  const std::size_t length = slot.map_bytes();
+  void* start = ::mmap(nullptr, length, PROT_READ, MAP_SHARED, device_->fd(),
+                       static_cast<off_t>(slot.map_offset()));
   if (start == MAP_FAILED) return errno;
-  mappings_.push_back({start, buffer.length});
+  mappings_.push_back({start, length});
   return 0;
 }
 
 int V4l2Buffers::queue(std::uint32_t index) {
-  v4l2_buffer buffer = buffer_at(index);
-  const int error = device_->call(VIDIOC_QBUF, &buffer);
+  V4l2Slot slot(*device_, index);
+  const int error = device_->call(VIDIOC_QBUF, slot.argument());
   if (error == 0) ++queued_;
   return error;
 }
 
-std::shared_ptr<const RawImage> V4l2Buffers::lend(std::uint32_t index, std::size_t bytes,
-                                                  RawImage image) {
+std::shared_ptr<const RawImage> V4l2Buffers::lend(const V4l2Slot& filled, RawImage image) {
+  const std::uint32_t index = filled.index();
   {
     const std::lock_guard lock(mutex_);
     --queued_;
     const Mapping& mapping = mappings_[index];
-    image.bytes = {static_cast<const std::uint8_t*>(mapping.start),
-                   std::min(bytes, mapping.length)};
+    const std::size_t end = std::min(filled.frame_end(), mapping.length);
+    const std::size_t begin = std::min(filled.frame_begin(), end);
+    image.bytes = {static_cast<const std::uint8_t*>(mapping.start) + begin, end - begin};
   }
   const auto lent = std::make_shared<Lent>(shared_from_this(), index, image);
   return {lent, &lent->image};
@@ -106,7 +100,7 @@ bool V4l2Buffers::all_lent() const {
 void V4l2Buffers::detach() {
   const std::lock_guard lock(mutex_);
   if (device_ == nullptr) return;
-  int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  std::uint32_t type = device_->capture_type();
   device_->call(VIDIOC_STREAMOFF, &type);
   unsigned none = 0;
   request(*device_, none);  // mappings that are still in use live on without the device

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "drivers/camera/v4l2_device.h"
+#include "drivers/camera/v4l2_planes.h"
 #include "edge/base/raw_image.h"
 
 namespace plumbline {
@@ -26,8 +27,8 @@ class V4l2Buffers : public std::enable_shared_from_this<V4l2Buffers> {
   V4l2Buffers(const V4l2Buffers&) = delete;
   V4l2Buffers& operator=(const V4l2Buffers&) = delete;
 
-  // `image` says how the pixels lie; its bytes become those of buffer `index`.
-  std::shared_ptr<const RawImage> lend(std::uint32_t index, std::size_t bytes, RawImage image);
+  // `image` says how the pixels lie; its bytes become those of the frame in the buffer.
+  std::shared_ptr<const RawImage> lend(const V4l2Slot& filled, RawImage image);
 
   void give_back(std::uint32_t index);
 

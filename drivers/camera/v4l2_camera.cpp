@@ -182,10 +182,10 @@ int V4l2Camera::take_frames() {
 
 // False when there is none, or the device failed.
 bool V4l2Camera::take_frame() {
-  v4l2_buffer buffer{};
-  const int error = session_->dequeue(buffer);
+  V4l2Slot filled(session_->device());
+  const int error = session_->dequeue(filled);
   if (error == 0) {
-    hand_out(buffer, clock_.now());
+    hand_out(filled, clock_.now());
     return true;
   }
   if (error != EAGAIN) fail_to_read(error);
@@ -198,18 +198,17 @@ void V4l2Camera::fail_to_read(int error) {
   session_.reset();
 }
 
-void V4l2Camera::hand_out(const v4l2_buffer& buffer, HostTime arrival) {
-  const ExposureTiming timing = session_->timing_of(buffer, arrival);
-  std::shared_ptr<const RawImage> image =
-      session_->buffers().lend(buffer.index, buffer.bytesused, session_->layout());
-  if (account_.is_late(buffer.sequence)) return;
-  const bool sound = (buffer.flags & V4L2_BUF_FLAG_ERROR) == 0 && check_layout(*image).ok();
+void V4l2Camera::hand_out(const V4l2Slot& filled, HostTime arrival) {
+  const ExposureTiming timing = session_->timing_of(filled, arrival);
+  std::shared_ptr<const RawImage> image = session_->buffers().lend(filled, session_->layout());
+  if (account_.is_late(filled.sequence())) return;
+  const bool sound = (filled.flags() & V4L2_BUF_FLAG_ERROR) == 0 && check_layout(*image).ok();
   if (!sound) {
     watch_.damaged_frame();
-    send(FramesLost{arrival, account_.damaged(buffer.sequence, timing.first_row_start)});
+    send(FramesLost{arrival, account_.damaged(filled.sequence(), timing.first_row_start)});
     return;
   }
-  const FrameAccount::Counted counted = account_.frame(buffer.sequence, timing.first_row_start);
+  const FrameAccount::Counted counted = account_.frame(filled.sequence(), timing.first_row_start);
   send(watch_.frame(arrival));
   if (counted.lost_before > 0) send(FramesLost{arrival, counted.lost_before});
   Frame frame;

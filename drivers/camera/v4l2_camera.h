@@ -38,7 +38,7 @@ class V4l2Camera : public Camera {
   int take_frames();
   bool take_frame();
   void fail_to_read(int error);
-  void hand_out(const v4l2_buffer& buffer, HostTime arrival);
+  void hand_out(const V4l2Slot& filled, HostTime arrival);
   void take_events();
   void take_new_limit();
   void fail(CameraState state, const std::string& sentence);

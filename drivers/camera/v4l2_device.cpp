@@ -10,6 +10,8 @@
 #include <cstring>
 #include <utility>
 
+#include "drivers/camera/v4l2_planes.h"
+
 namespace plumbline {
 namespace {
 
@@ -20,6 +22,12 @@ template <std::size_t N>
 std::string text(const __u8 (&field)[N]) {
   const auto* begin = reinterpret_cast<const char*>(field);
   return {begin, std::find(begin, begin + N, '\0')};
+}
+
+// Of this node, as opposed to all nodes of its driver.
+std::uint32_t capabilities(const v4l2_capability& found) {
+  const bool split = (found.capabilities & V4L2_CAP_DEVICE_CAPS) != 0;
+  return split ? found.device_caps : found.capabilities;
 }
 
 std::string advice(int error) {
@@ -110,11 +118,10 @@ void add_sizes(const V4l2Device& device, PixelFormat format, std::vector<CameraM
 // Drivers of fixed sources list no sizes: then the size is what it is.
 void add_current_size(const V4l2Device& device, PixelFormat format,
                       std::vector<CameraMode>& modes) {
-  v4l2_format current{};
-  current.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-  if (device.call(VIDIOC_G_FMT, &current) != 0) return;
-  modes.push_back({static_cast<int>(current.fmt.pix.width),
-                   static_cast<int>(current.fmt.pix.height), format, std::nullopt});
+  V4l2FrameFormat current;
+  if (get_format(device, current) != 0) return;
+  modes.push_back(
+      {static_cast<int>(current.width), static_cast<int>(current.height), format, std::nullopt});
 }
 
 }  // namespace
@@ -122,6 +129,13 @@ void add_current_size(const V4l2Device& device, PixelFormat format,
 V4l2Device::V4l2Device(std::string path) : path_(std::move(path)) {
   fd_ = ::open(path_.c_str(), O_RDWR | O_NONBLOCK | O_CLOEXEC);
   if (fd_ < 0) open_error_ = errno;
+  v4l2_capability found{};
+  if (fd_ < 0 || call(VIDIOC_QUERYCAP, &found) != 0) return;
+  const std::uint32_t can = capabilities(found);
+  const bool by_planes = (can & V4L2_CAP_VIDEO_CAPTURE_MPLANE) != 0;
+  if (by_planes && (can & V4L2_CAP_VIDEO_CAPTURE) == 0) {
+    capture_type_ = V4L2_BUF_TYPE_VIDEO_CAPTURE_MPLANE;
+  }
 }
 
 V4l2Device::~V4l2Device() {
@@ -151,9 +165,8 @@ V4l2Identity identity_of(const V4l2Device& device) {
   identity.card = text(found.card);
   identity.driver = text(found.driver);
   identity.bus = text(found.bus_info);
-  const bool split = (found.capabilities & V4L2_CAP_DEVICE_CAPS) != 0;
-  const std::uint32_t can = split ? found.device_caps : found.capabilities;
-  if ((can & V4L2_CAP_VIDEO_CAPTURE) == 0) {
+  const std::uint32_t can = capabilities(found);
+  if ((can & (V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_VIDEO_CAPTURE_MPLANE)) == 0) {
     identity.why_not = "'" + device.path() + "' (" + identity.card +
                        ") is a video device that is not a camera; see plumbline camera for those "
                        "that are.";
@@ -182,7 +195,7 @@ std::vector<CameraMode> modes_of(const V4l2Device& device) {
   for (std::uint32_t i = 0; i < kMostEntries; ++i) {
     v4l2_fmtdesc entry{};
     entry.index = i;
-    entry.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    entry.type = device.capture_type();
     if (device.call(VIDIOC_ENUM_FMT, &entry) != 0) break;
     const std::optional<PixelFormat> format = pixel_format_of_fourcc(entry.pixelformat);
     if (!format) continue;

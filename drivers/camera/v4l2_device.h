@@ -24,6 +24,9 @@ class V4l2Device {
   int fd() const { return fd_; }
   const std::string& path() const { return path_; }
 
+  // V4L2_BUF_TYPE_VIDEO_CAPTURE, or ..._MPLANE where frames are had by that interface only.
+  std::uint32_t capture_type() const { return capture_type_; }
+
   // One ioctl, again when a signal interrupts it. 0 or errno.
   int call(unsigned long request, void* argument) const;
 
@@ -31,6 +34,7 @@ class V4l2Device {
   std::string path_;
   int fd_ = -1;
   int open_error_ = 0;
+  std::uint32_t capture_type_ = V4L2_BUF_TYPE_VIDEO_CAPTURE;
 };
 
 // What failed, and what to do about it. `what`: "open", "start streaming".

@@ -17,24 +17,24 @@ constexpr unsigned kBuffers = 5;  // one or two being filled, one or two in a ri
 
 bool is_gone(int error) { return error == ENOENT || error == ENODEV || error == ENXIO; }
 
-LumaRange range_of(const v4l2_pix_format& pix) {
+LumaRange range_of(const V4l2FrameFormat& pix) {
   const std::uint32_t quantization = pix.quantization != V4L2_QUANTIZATION_DEFAULT
                                          ? pix.quantization
                                          : static_cast<std::uint32_t>(V4L2_MAP_QUANTIZATION_DEFAULT(
-                                               false, pix.colorspace, pix.ycbcr_enc));
+                                               false, pix.colorspace, pix.ycbcr_encoding));
   return quantization == V4L2_QUANTIZATION_FULL_RANGE ? LumaRange::kFull : LumaRange::kLimited;
 }
 
-RawImage layout_of(const v4l2_pix_format& pix, PixelFormat format) {
+RawImage layout_of(const V4l2FrameFormat& pix, PixelFormat format) {
   RawImage layout;
   layout.format = format;
   layout.width_px = static_cast<int>(pix.width);
   layout.height_px = static_cast<int>(pix.height);
   layout.range = range_of(pix);
   if (format == PixelFormat::kMjpeg) return layout;
-  layout.stride_bytes = pix.bytesperline;
+  layout.stride_bytes = pix.stride_bytes;
   if (format == PixelFormat::kNv12) {
-    layout.second_plane_offset = static_cast<std::size_t>(pix.bytesperline) * pix.height;
+    layout.second_plane_offset = static_cast<std::size_t>(pix.stride_bytes) * pix.height;
   }
   return layout;
 }
@@ -56,11 +56,11 @@ bool uvc_reckons_with_the_cameras_clock() {
   return read && (value == '1' || value == 'Y');
 }
 
-StampMeaning meaning_of(const v4l2_buffer& buffer, const std::string& driver) {
+StampMeaning meaning_of(std::uint32_t flags, const std::string& driver) {
   const bool monotonic =
-      (buffer.flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
+      (flags & V4L2_BUF_FLAG_TIMESTAMP_MASK) == V4L2_BUF_FLAG_TIMESTAMP_MONOTONIC;
   if (!monotonic) return StampMeaning::kArrival;
-  const bool start = (buffer.flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
+  const bool start = (flags & V4L2_BUF_FLAG_TSTAMP_SRC_MASK) == V4L2_BUF_FLAG_TSTAMP_SRC_SOE;
   if (!start) return StampMeaning::kEndOfFrame;
   static const bool reckons = uvc_reckons_with_the_cameras_clock();
   return driver == "uvcvideo" && !reckons ? StampMeaning::kFirstPacket
@@ -112,7 +112,7 @@ V4l2Failure V4l2Session::failure(const std::string& what, int error) const {
 // A crop left by another program would make it another camera. Many cannot crop: no harm.
 void V4l2Session::show_whole_sensor() {
   v4l2_selection whole{};
-  whole.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  whole.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;  // of either interface
   whole.target = V4L2_SEL_TGT_CROP_DEFAULT;
   if (device_.call(VIDIOC_G_SELECTION, &whole) != 0) return;
   whole.target = V4L2_SEL_TGT_CROP;
@@ -146,22 +146,19 @@ std::optional<V4l2Failure> V4l2Session::set_mode() {
 }
 
 int V4l2Session::set_format(const CameraMode& mode) {
-  v4l2_format format{};
-  format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-  format.fmt.pix.width = static_cast<std::uint32_t>(mode.width_px);
-  format.fmt.pix.height = static_cast<std::uint32_t>(mode.height_px);
-  format.fmt.pix.pixelformat = code_of(mode.format);
-  format.fmt.pix.field = V4L2_FIELD_NONE;
-  const int error = device_.call(VIDIOC_S_FMT, &format);
+  V4l2FrameFormat format;
+  format.width = static_cast<std::uint32_t>(mode.width_px);
+  format.height = static_cast<std::uint32_t>(mode.height_px);
+  format.fourcc = code_of(mode.format);
+  const int error = plumbline::set_format(device_, format);
   if (error != 0) return error;
-  const auto got = pixel_format_of_fourcc(format.fmt.pix.pixelformat);
-  layout_ = layout_of(format.fmt.pix, got.value_or(PixelFormat::kGrey));
+  layout_ = layout_of(format, pixel_format_of_fourcc(format.fourcc).value_or(PixelFormat::kGrey));
   return 0;
 }
 
 void V4l2Session::set_rate(const CameraMode& mode) {
   v4l2_streamparm parameters{};
-  parameters.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  parameters.type = device_.capture_type();
   const std::optional<double> rate =
       options_.frames_per_s ? options_.frames_per_s : mode.frames_per_s;
   if (rate && *rate > 0) {
@@ -218,25 +215,23 @@ std::optional<V4l2Failure> V4l2Session::stream() {
   if (const int error = V4l2Buffers::make(device_, kBuffers, buffers_); error != 0) {
     return failure("get memory for", error);
   }
-  int type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+  std::uint32_t type = device_.capture_type();
   if (const int error = device_.call(VIDIOC_STREAMON, &type); error != 0) {
     return failure("start", error);
   }
   return std::nullopt;
 }
 
-int V4l2Session::dequeue(v4l2_buffer& buffer) {
-  buffer = {};
-  buffer.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
-  buffer.memory = V4L2_MEMORY_MMAP;
-  return device_.call(VIDIOC_DQBUF, &buffer);
+int V4l2Session::dequeue(V4l2Slot& filled) {
+  filled = V4l2Slot(device_);
+  return device_.call(VIDIOC_DQBUF, filled.argument());
 }
 
-ExposureTiming V4l2Session::timing_of(const v4l2_buffer& buffer, HostTime arrival) const {
-  const HostTime stamp(std::chrono::seconds(buffer.timestamp.tv_sec) +
-                       std::chrono::microseconds(buffer.timestamp.tv_usec));
-  ExposureModel model{meaning_of(buffer, identity_.driver), period_, exposure_, options_.row_time,
-                      layout_.height_px};
+ExposureTiming V4l2Session::timing_of(const V4l2Slot& filled, HostTime arrival) const {
+  const timeval time = filled.timestamp();
+  const HostTime stamp(std::chrono::seconds(time.tv_sec) + std::chrono::microseconds(time.tv_usec));
+  ExposureModel model{meaning_of(filled.flags(), identity_.driver), period_, exposure_,
+                      options_.row_time, layout_.height_px};
   // A stamp far from now is of another clock. (Drivers that reckon it from a steady rate may be a
   // little ahead.)
   const bool sane = stamp < arrival + period_ && arrival - stamp < std::chrono::seconds(10);

@@ -49,12 +49,12 @@ class V4l2Session {
   V4l2Buffers& buffers() { return *buffers_; }
 
   // One frame that is ready. 0, EAGAIN where there is none, or errno.
-  int dequeue(v4l2_buffer& buffer);
+  int dequeue(V4l2Slot& filled);
 
   // How the pixels of a buffer lie.
   const RawImage& layout() const { return layout_; }
 
-  ExposureTiming timing_of(const v4l2_buffer& buffer, HostTime arrival) const;
+  ExposureTiming timing_of(const V4l2Slot& filled, HostTime arrival) const;
 
   void limit_exposure(std::chrono::microseconds longest);
 
