@@ -20,6 +20,11 @@ Uncertain uniform(double low_s, double high_s) {
   return {0.5 * (low_s + high_s), width_s * width_s / 12.0};
 }
 
+Uncertain known(const ExposureHistory::Exposure& exposure) {
+  const double sigma_s = Seconds(exposure.sigma).count();
+  return {Seconds(exposure.mean).count(), sigma_s * sigma_s};
+}
+
 Uncertain operator+(Uncertain a, Uncertain b) {
   return {a.mean_s + b.mean_s, a.variance_s2 + b.variance_s2};
 }
@@ -31,7 +36,7 @@ std::chrono::nanoseconds ns(double seconds) {
 // From the stamp to the middle row's end of exposure, where readout took `readout_s`.
 Uncertain with_readout(const ExposureModel& model, double readout_s) {
   const double period_s = Seconds(model.period).count();
-  const double exposure_s = Seconds(model.exposure.value_or(std::chrono::nanoseconds(0))).count();
+  const double exposure_s = model.exposure ? Seconds(model.exposure->mean).count() : 0;
   switch (model.meaning) {
     case StampMeaning::kStartOfExposure:
       return {exposure_s + 0.5 * readout_s, 0};
@@ -66,8 +71,7 @@ Uncertain to_end_of_exposure(const ExposureModel& model) {
 ExposureTiming exposure_of(HostTime stamp, const ExposureModel& model) {
   const double period_s = Seconds(model.period).count();
   const Uncertain end = to_end_of_exposure(model);
-  const Uncertain exposure =
-      model.exposure ? Uncertain{Seconds(*model.exposure).count(), 0} : uniform(0, period_s);
+  const Uncertain exposure = model.exposure ? known(*model.exposure) : uniform(0, period_s);
   // From its end to its middle; of an exposure that is stamped at its start, from start to middle.
   const bool from_start = model.meaning == StampMeaning::kStartOfExposure && !model.exposure;
   const double half = from_start ? 0.5 : -0.5;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "drivers/camera.h"
+#include "drivers/camera/exposure_history.h"
 
 namespace plumbline {
 
@@ -20,7 +21,7 @@ enum class StampMeaning {
 struct ExposureModel {
   StampMeaning meaning = StampMeaning::kArrival;
   std::chrono::nanoseconds period{};
-  std::optional<std::chrono::nanoseconds> exposure;
+  std::optional<ExposureHistory::Exposure> exposure;
   std::optional<std::chrono::nanoseconds> row_time;  // rolling shutter; 0: global, and known to be
   int rows = 0;
 };

@@ -235,7 +235,7 @@ void V4l2Camera::take_new_limit() {
   const std::int64_t limit_us = new_limit_us_.exchange(-1);
   if (limit_us < 0) return;
   options_.longest_exposure = std::chrono::microseconds(limit_us);
-  if (session_) session_->limit_exposure(options_.longest_exposure);
+  if (session_) session_->limit_exposure(options_.longest_exposure, clock_.now());
 }
 
 void V4l2Camera::send(std::optional<CameraReport> report) {

@@ -175,7 +175,7 @@ void V4l2Session::set_rate(const CameraMode& mode) {
 void V4l2Session::apply(const ControlPlan& plan) {
   notices_ = plan.notices;
   for (const ControlSetting& setting : plan.settings) set_control(setting);
-  if (plan.exposure_known) read_exposure();
+  if (plan.exposure_known) read_exposure(HostTime{});  // before all frames
 }
 
 void V4l2Session::set_control(const ControlSetting& setting) {
@@ -188,9 +188,9 @@ void V4l2Session::set_control(const ControlSetting& setting) {
                      sentence_of(device_.path(), "set", error) + ")");
 }
 
-void V4l2Session::read_exposure() {
+void V4l2Session::read_exposure(HostTime set_at) {
   const auto value = value_of(device_, V4L2_CID_EXPOSURE_ABSOLUTE);
-  if (value) exposure_ = std::chrono::microseconds(100 * *value);
+  if (value) exposures_.set(set_at, std::chrono::microseconds(100 * *value));
 }
 
 void V4l2Session::read_interior() {
@@ -230,22 +230,25 @@ int V4l2Session::dequeue(V4l2Slot& filled) {
 ExposureTiming V4l2Session::timing_of(const V4l2Slot& filled, HostTime arrival) const {
   const timeval time = filled.timestamp();
   const HostTime stamp(std::chrono::seconds(time.tv_sec) + std::chrono::microseconds(time.tv_usec));
-  ExposureModel model{meaning_of(filled.flags(), identity_.driver), period_, exposure_,
-                      options_.row_time, layout_.height_px};
   // A stamp far from now is of another clock. (Drivers that reckon it from a steady rate may be a
   // little ahead.)
   const bool sane = stamp < arrival + period_ && arrival - stamp < std::chrono::seconds(10);
-  if (sane && model.meaning != StampMeaning::kArrival) return exposure_of(stamp, model);
-  model.meaning = StampMeaning::kArrival;
-  return exposure_of(arrival, model);
+  ExposureModel model;
+  if (sane) model.meaning = meaning_of(filled.flags(), identity_.driver);
+  const HostTime event = model.meaning == StampMeaning::kArrival ? arrival : stamp;
+  model.period = period_;
+  model.exposure = exposures_.of_frame(event, period_);
+  model.row_time = options_.row_time;
+  model.rows = layout_.height_px;
+  return exposure_of(event, model);
 }
 
-void V4l2Session::limit_exposure(std::chrono::microseconds longest) {
+void V4l2Session::limit_exposure(std::chrono::microseconds longest, HostTime now) {
   options_.longest_exposure = longest;
   const std::optional<ControlSetting> setting = exposure_setting(controls_, longest);
   if (!setting) return;
   set_control(*setting);
-  read_exposure();
+  read_exposure(now);
 }
 
 bool V4l2Session::picture_changed(bool& lens_moved) {

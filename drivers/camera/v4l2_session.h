@@ -56,7 +56,7 @@ class V4l2Session {
 
   ExposureTiming timing_of(const V4l2Slot& filled, HostTime arrival) const;
 
-  void limit_exposure(std::chrono::microseconds longest);
+  void limit_exposure(std::chrono::microseconds longest, HostTime now);
 
   // Reads what the device says has changed: true if the picture did, so that the session must be
   // opened anew. `lens_moved`: focus or zoom.
@@ -75,7 +75,7 @@ class V4l2Session {
   void apply(const ControlPlan& plan);
   void set_control(const ControlSetting& setting);
   void read_interior();
-  void read_exposure();
+  void read_exposure(HostTime set_at);
   void subscribe();
   std::optional<V4l2Failure> stream();
   V4l2Failure failure(const std::string& what, int error) const;
@@ -88,7 +88,7 @@ class V4l2Session {
   RawImage layout_;
   CameraInterior interior_;
   std::chrono::nanoseconds period_{std::chrono::milliseconds(33)};
-  std::optional<std::chrono::nanoseconds> exposure_;
+  ExposureHistory exposures_;
   std::shared_ptr<V4l2Buffers> buffers_;
 };
 

@@ -259,7 +259,7 @@ bool LibcameraCamera::take_letters() {
   }
   if (limit) {
     options_.longest_exposure = *limit;
-    session_->limit_exposure(*limit);
+    session_->limit_exposure(*limit, clock_.now());
   }
   for (libcamera::Request* request : given_back) requeue(request);
   for (libcamera::Request* request : completed) hand_out(request);
@@ -353,11 +353,12 @@ ExposureTiming LibcameraCamera::timing_of(libcamera::Request& request, HostTime 
   }
   last_stamp_ = stamp;
   last_sequence_ = sequence;
-  ExposureModel model{StampMeaning::kFirstPacket, account_.period(), session_->set_exposure(),
-                      options_.row_time, session_->layout().height_px};
+  ExposureModel model{StampMeaning::kFirstPacket, account_.period(),
+                      session_->exposures().of_frame(stamp, account_.period()), options_.row_time,
+                      session_->layout().height_px};
   if (const auto us = metadata.get(libcamera::controls::ExposureTime)) {
     model.meaning = StampMeaning::kStartOfReadout;
-    model.exposure = std::chrono::microseconds(*us);
+    model.exposure = {std::chrono::microseconds(*us), {}};
   }
   const auto skew_ns = compat::rolling_shutter_skew_ns(metadata);
   if (!model.row_time && skew_ns && model.rows > 1) {

@@ -134,6 +134,7 @@ std::optional<LibcameraFailure> LibcameraSession::configure(std::optional<double
   stream_ = stream.stream();
   layout_ = layout_of(stream, *pixel_format_of(stream.pixelFormat));
   settings_ = settings_for(*camera_, options_, lens_position);
+  note_exposure(HostTime{});  // before all frames
   if (auto failed = make_requests()) return failed;
   return start();
 }
@@ -191,10 +192,9 @@ std::optional<LibcameraFailure> LibcameraSession::start() {
   return std::nullopt;
 }
 
-std::optional<std::chrono::nanoseconds> LibcameraSession::set_exposure() const {
+void LibcameraSession::note_exposure(HostTime set_at) {
   const auto us = settings_.controls.get(libcamera::controls::ExposureTime);
-  if (!us) return std::nullopt;
-  return std::chrono::microseconds(*us);
+  if (us) exposures_.set(set_at, std::chrono::microseconds(*us));
 }
 
 const libcamera::FrameBuffer* LibcameraSession::buffer_of(const libcamera::Request& request) const {
@@ -206,12 +206,13 @@ bool LibcameraSession::queue(libcamera::Request* request) {
   return camera_->queueRequest(request) == 0;
 }
 
-void LibcameraSession::limit_exposure(std::chrono::microseconds longest) {
+void LibcameraSession::limit_exposure(std::chrono::microseconds longest, HostTime now) {
   options_.longest_exposure = longest;
   libcamera::ControlList controls(libcamera::controls::controls);
   plumbline::set_exposure(camera_->controls(), options_, controls);
   plumbline::set_exposure(camera_->controls(), options_, settings_.controls);
   changed_ = controls;
+  note_exposure(now);
 }
 
 }  // namespace plumbline

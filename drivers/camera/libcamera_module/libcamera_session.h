@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/camera/exposure_history.h"
 #include "drivers/camera/libcamera_module/libcamera_settings.h"
 
 namespace plumbline {
@@ -56,7 +57,7 @@ class LibcameraSession {
   const RawImage& layout() const { return layout_; }
   int buffer_count() const { return static_cast<int>(requests_.size()); }
   const std::vector<std::string>& notices() const { return settings_.notices; }
-  std::optional<std::chrono::nanoseconds> set_exposure() const;
+  const ExposureHistory& exposures() const { return exposures_; }  // as set
   const std::shared_ptr<MappedBuffers>& memory() const { return memory_; }
 
   const libcamera::FrameBuffer* buffer_of(const libcamera::Request& request) const;
@@ -64,7 +65,7 @@ class LibcameraSession {
   // Lets the camera fill it again; with it go changed controls. False: the camera refuses.
   bool queue(libcamera::Request* request);
 
-  void limit_exposure(std::chrono::microseconds longest);
+  void limit_exposure(std::chrono::microseconds longest, HostTime now);
 
  private:
   LibcameraSession(std::shared_ptr<libcamera::Camera> camera, const CameraOptions& options,
@@ -74,6 +75,7 @@ class LibcameraSession {
   std::optional<LibcameraFailure> choose(libcamera::CameraConfiguration& configuration);
   std::optional<LibcameraFailure> make_requests();
   std::optional<LibcameraFailure> start();
+  void note_exposure(HostTime set_at);
   LibcameraFailure failure(const std::string& what, int result) const;
   void on_completed(libcamera::Request* request) { callbacks_.completed(request); }
   void on_disconnected() { callbacks_.disconnected(); }
@@ -84,6 +86,7 @@ class LibcameraSession {
   libcamera::Stream* stream_ = nullptr;
   RawImage layout_;
   LibcameraSettings settings_;
+  ExposureHistory exposures_;
   std::optional<libcamera::ControlList> changed_;  // for the next request
   std::unique_ptr<libcamera::FrameBufferAllocator> allocator_;
   std::shared_ptr<MappedBuffers> memory_;

@@ -22,7 +22,8 @@ double ms_from_stamp(HostTime time) {
 
 ExposureModel known(StampMeaning meaning) {
   // 1001 rows of 20 us: 20 ms from the first to the last row.
-  return {meaning, milliseconds(50), milliseconds(4), microseconds(20), 1001};
+  return {meaning, milliseconds(50), ExposureHistory::Exposure{milliseconds(4), {}},
+          microseconds(20), 1001};
 }
 
 TEST(ExposureModel, PutsTheFirstRowWhereTheStampSaysItBegan) {
