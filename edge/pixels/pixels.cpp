@@ -5,6 +5,7 @@
 #include <cstring>
 #include <string>
 
+#include "edge/jpeg/huffman_tables.h"
 #include "edge/jpeg/jpeg.h"
 #include "edge/pixels/bayer.h"
 #include "edge/pixels/luma_chroma.h"
@@ -122,7 +123,7 @@ Result<std::vector<std::uint8_t>> jpeg_of(const RawImage& frame, int quality) {
   if (frame.format == PixelFormat::kGrey) return jpeg::encode(packed(frame, 1), quality);
   if (frame.format == PixelFormat::kMjpeg) {
     if (const auto sound = grey_of(frame); !sound) return sound.error();
-    return std::vector<std::uint8_t>(frame.bytes.begin(), frame.bytes.end());
+    return jpeg::with_huffman_tables(frame.bytes);
   }
   const Result<Image> rgb = rgb_of(frame);
   if (!rgb) return rgb.error();

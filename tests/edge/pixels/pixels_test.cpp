@@ -131,6 +131,24 @@ TEST(Pixels, PassesAWholeJpegThroughAndRefusesACutOne) {
   EXPECT_THAT(grey_of(frame).error().sentence, HasSubstr("in a stream of 32 x 48"));
 }
 
+// A grey frame of one table of each class, whose segments libjpeg writes one after the other.
+TEST(Pixels, GivesAFrameOfACameraTheTablesThatMakeItAFile) {
+  RandomFrame source(PixelFormat::kGrey, 64, 48, 0, 14);
+  const std::vector<std::uint8_t> file = *jpeg_of(source.image, 90);
+  const std::vector<std::uint8_t> marker = {0xFF, 0xC4};
+  std::vector<std::uint8_t> frame = file;
+  for (int table = 0; table < 2; ++table) {
+    const auto at = std::search(frame.begin(), frame.end(), marker.begin(), marker.end());
+    ASSERT_NE(at, frame.end());
+    frame.erase(at, at + 2 + at[2] * 256 + at[3]);
+  }
+  const RawImage of_camera{PixelFormat::kMjpeg, 64, 48, 0, 0, LumaRange::kFull, frame};
+  const auto photo = jpeg_of(of_camera, 90);
+  ASSERT_TRUE(photo) << photo.error().sentence;
+  EXPECT_NE(std::search(photo->begin(), photo->end(), marker.begin(), marker.end()), photo->end());
+  EXPECT_EQ(jpeg::decode_grey(*photo, "photo")->data, jpeg::decode_grey(file, "file")->data);
+}
+
 TEST(Pixels, RefusesAFrameThatLacksItsLastByte) {
   for (const PixelFormat format :
        {PixelFormat::kGrey, PixelFormat::kYuyv, PixelFormat::kNv12, PixelFormat::kRgb24}) {
