@@ -4,6 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <string>
+#include <utility>
+
 #include "edge/jpeg/jpeg.h"
 #include "sim/sim_camera.h"
 #include "sim/virtual_clock.h"
@@ -11,6 +15,7 @@
 namespace plumbline::commands {
 namespace {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 struct Bench {
@@ -48,6 +53,59 @@ TEST(CameraShot, RefusesASizeThatTheCameraDoesNotHave) {
   ShotOptions options;
   options.camera.width_px = 4000;
   EXPECT_THAT(bench.shoot(options).error().sentence, HasSubstr("no mode 4000 x 12"));
+}
+
+// A sensor without processing, that says nothing of its colours: two frames, 2 s apart.
+class RawSensor : public Camera {
+ public:
+  explicit RawSensor(PixelFormat format) : format_(format) {}
+
+  Status start(const CameraOptions& options, Sink sink) override {
+    asked_raw = options.raw;
+    for (const int second : {1, 3}) {
+      Frame frame;
+      frame.timing.first_row_start = HostTime(std::chrono::seconds(second));
+      frame.timing.exposure = std::chrono::milliseconds(1);
+      frame.image = std::make_shared<const RawImage>(
+          RawImage{format_, 64, 48, row_bytes(format_, 64), 0, LumaRange::kFull, bytes_});
+      sink(std::move(frame));
+    }
+    return Done{};
+  }
+  void stop() override {}
+  void limit_exposure(std::chrono::microseconds /*longest*/) override {}
+  Result<CameraDescription> describe() override {
+    return CameraDescription{"raw", "Sensor 477", "none", {}, {}};
+  }
+
+  bool asked_raw = false;
+
+ private:
+  PixelFormat format_;
+  std::vector<std::uint8_t> bytes_ = std::vector<std::uint8_t>(64 * 48 * 2, 7);
+};
+
+Result<Shot> shoot_raw(RawSensor& sensor) {
+  ShotOptions options;
+  options.camera.raw = true;
+  return take_shot(sensor, options,
+                   [](Signal& /*signal*/, std::chrono::nanoseconds /*longest*/) {});
+}
+
+TEST(CameraShot, WritesARawFileAndSaysWhatTheCameraDoesNotKnowOfItsColours) {
+  RawSensor sensor(PixelFormat::kBggr10Packed);
+  const Result<Shot> shot = shoot_raw(sensor);
+  ASSERT_TRUE(shot) << shot.error().sentence;
+  EXPECT_TRUE(sensor.asked_raw);
+  const std::string file(shot->file.begin(), shot->file.end());
+  EXPECT_EQ(file.substr(0, 2), "II") << "a TIFF file";
+  EXPECT_THAT(file, HasSubstr("Sensor 477"));
+  EXPECT_THAT(shot->notices, ElementsAre(HasSubstr("without light"), HasSubstr("white balance")));
+}
+
+TEST(CameraShot, MakesNoRawFileOfAFinishedFrame) {
+  RawSensor sensor(PixelFormat::kYuyv);
+  EXPECT_THAT(shoot_raw(sensor).error().sentence, HasSubstr("YUYV is no raw frame"));
 }
 
 TEST(CameraShot, LeavesTheCameraStopped) {
