@@ -26,8 +26,9 @@ Result<Image> grey_of(const RawImage& frame);
 Result<Image> rgb_of(const RawImage& frame);
 
 // A JPEG file. MJPEG passes through (`quality` is the camera's own) once it has been read to its
-// end, with the tables put in that cameras leave out (edge/jpeg/huffman_tables.h); YUYV and NV12 are written with their own Y and colours, at their own sampling.
-// Quality 1..100 in libjpeg's sense.
+// end, with the tables put in that cameras leave out (edge/jpeg/huffman_tables.h); YUYV and NV12
+// are written with their own Y and colours, at their own sampling. Quality 1..100 in libjpeg's
+// sense.
 Result<std::vector<std::uint8_t>> jpeg_of(const RawImage& frame, int quality);
 
 }  // namespace plumbline::pixels
