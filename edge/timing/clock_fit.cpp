@@ -18,6 +18,20 @@ nanoseconds from_seconds(double seconds) { return nanoseconds(std::llround(secon
 
 double in_seconds(nanoseconds duration) { return std::chrono::duration<double>(duration).count(); }
 
+void add_sigma(GnssClock& clock, double sigma_s) { clock.variance_s2 += sigma_s * sigma_s; }
+
+// What a line fitted over the last `span_s` seconds does not know of a rate that changed meanwhile.
+// At its end a walk of the rate leaves it off by about q T^(3/2) / sqrt(15). Below a ramp a the
+// lowest line touches in the middle: off by a T^2 / 8 at its end, by a T / 2 in its slope.
+void allow_for_changes_of_rate(GnssClock& clock, double span_s, double walk, double ramp) {
+  const double walked = walk * walk * span_s;
+  const double ramped = ramp * ramp * span_s * span_s;
+  clock.variance_s2 += walked * span_s * span_s / 15 + ramped * span_s * span_s / 64;
+  clock.covariance_s += walked * span_s / 8 + ramped * span_s / 16;
+  clock.rate_variance += walked / 3 + ramped / 4;
+  clock.rate_walk_per_sqrt_s = walk;
+}
+
 }  // namespace
 
 ClockFit::ClockFit(const ClockFitOptions& options) : options_(options) {}
@@ -44,14 +58,29 @@ std::optional<GnssClock> ClockFit::estimate() const {
   clock.host -= options_.latency.value;
   clock.latency = options_.latency.value;
   clock.sigma_latency = options_.latency.sigma;
-  if (last_rounded_ && newest_ - *last_rounded_ < options_.window) {
-    // Rounding that varies lowers the floor by its half, one that is constant shifts it by anything
-    // up to that: between the two.
-    clock.host += options_.rounding / 4;
-    const double sigma_s = in_seconds(options_.rounding) / 3;
-    clock.variance_s2 += sigma_s * sigma_s;
-  }
+  allow_for_poll(clock);
+  if (last_rounded_ && newest_ - *last_rounded_ < options_.window) allow_for_rounding(clock);
   return clock;
+}
+
+// Polls that beat against the epochs leave the least latency as it is; those whose phase stands
+// still add anything up to a step to it, and arrivals alone cannot tell which. A quarter of a step
+// with a sigma of 0.4 covers both. At the start all stand still, for the clocks have not yet moved
+// by a step against each other: the sigma is wider.
+void ClockFit::allow_for_poll(GnssClock& clock) const {
+  const double step_s = in_seconds(options_.poll);
+  if (step_s <= 0) return;
+  const double span_s = in_seconds(newest_ - earliest_.front().epoch);
+  const double still = std::max(0.0, 1 - options_.rate_sigma * span_s / step_s);
+  clock.host -= from_seconds(step_s / 4);
+  add_sigma(clock, (0.4 + 0.2 * still) * step_s);
+}
+
+// Rounding that varies lowers the floor by its half, one that is constant shifts it by anything up
+// to that: between the two.
+void ClockFit::allow_for_rounding(GnssClock& clock) const {
+  clock.host += options_.rounding / 4;
+  add_sigma(clock, in_seconds(options_.rounding) / 3);
 }
 
 nanoseconds ClockFit::behind(const Arrival& arrival) const {
@@ -142,12 +171,10 @@ void ClockFit::refit() {
   clock.gps = newest_;
   clock.host = HostTime(newest_.time_since_epoch() + base + from_seconds(floor.value_s));
   clock.rate = floor.slope;
-  // A line fitted to a rate that wanders is off at its end by about q T^(3/2) / sqrt(15).
-  const double walked = options_.rate_walk_per_sqrt_s * options_.rate_walk_per_sqrt_s;
-  clock.variance_s2 = floor.variance_s2 + walked * span_s * span_s * span_s / 15;
-  clock.covariance_s = floor.covariance_s + walked * span_s * span_s / 8;
-  clock.rate_variance = floor.slope_variance + walked * span_s / 3;
-  clock.rate_walk_per_sqrt_s = options_.rate_walk_per_sqrt_s;
+  clock.variance_s2 = floor.variance_s2;
+  clock.covariance_s = floor.covariance_s;
+  clock.rate_variance = floor.slope_variance;
+  allow_for_changes_of_rate(clock, span_s, options_.rate_walk_per_sqrt_s, options_.rate_ramp_per_s);
   clock_ = clock;
 }
 

@@ -22,6 +22,12 @@ struct ClockFitOptions {
   // What a computer's crystal does: its rate, 1 sigma, and how it wanders (temperature).
   double rate_sigma = 50e-6;
   double rate_walk_per_sqrt_s = 0.02e-6;
+  // And how fast it may go one way for minutes, 1 sigma: a board that warms or cools at 0.1 degree
+  // per second, at a third of a ppm per degree.
+  double rate_ramp_per_s = 0.03e-6;
+  // What brings the bytes brings them at such steps: USB's frames; the latency timer of an FTDI
+  // adapter that was not asked for low latency makes it 16 ms.
+  nanoseconds poll = std::chrono::milliseconds(1);
   // An epoch that is further off than this is late (after) or impossible (before); if all of
   // `confirming` are so, over `late_lasts` where they are late, the receiver's time has stepped.
   nanoseconds step = std::chrono::milliseconds(150);
@@ -78,6 +84,8 @@ class ClockFit {
   bool confirmed() const;
   void begin_anew();
   void refit();
+  void allow_for_poll(GnssClock& clock) const;
+  void allow_for_rounding(GnssClock& clock) const;
 
   ClockFitOptions options_;
   ClockFitSummary summary_;

@@ -4,16 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "edge/timing/floor_gap.h"
+
 namespace plumbline::timing {
 namespace {
 
-// From the lowest how many points the density at the floor is taken.
-constexpr std::size_t kLowest = 6;
-// How much wider than for an even density the gap is taken, and its sigma: between an even density
-// (1, 1) and one that rises from zero (2.5, 1.3).
-constexpr double kGapFactor = 1.8;
-constexpr double kSigmaFactor = 1.8;
-// Less is not believed: the kernel's timer, the polling of USB.
+// The share of the points, the lowest, that the floor is judged by, and the fewest of them.
+constexpr std::size_t kOneIn = 5;
+constexpr std::size_t kFewest = 8;
+// Less is not believed: the kernel's timer.
 constexpr double kLeastGap_s = 0.1e-3;
 // A tail that is believed before there are points to tell: it counts as one point.
 constexpr double kUsualTail_s = 20e-3;
@@ -46,7 +45,7 @@ class SlopeLikelihood {
     return density_per_s_ * cost_at_density_one(slope) + 0.5 * sigmas * sigmas;
   }
 
-  double gap_s() const { return 1 / density_per_s_; }
+  const FloorGap& gap() const { return gap_; }
   double slope_limit() const { return kSlopeLimitSigmas * slope_sigma_; }
 
   // The density at the floor, seen from the best line so far.
@@ -55,12 +54,10 @@ class SlopeLikelihood {
     for (const DelayPoint& point : points_) {
       above.push_back(point.delay_s - slope * point.time_s - env_s(slope));
     }
-    const std::size_t lowest = std::min(kLowest, above.size() - 1);
-    std::nth_element(above.begin(), above.begin() + static_cast<std::ptrdiff_t>(lowest),
-                     above.end());
-    const double usual_s = kUsualTail_s / static_cast<double>(above.size());
-    const double gap_s = kGapFactor * (above[lowest] + usual_s) / static_cast<double>(lowest + 1);
-    density_per_s_ = 1 / std::max(kLeastGap_s, gap_s);
+    std::sort(above.begin(), above.end());
+    above.resize(std::min(above.size(), std::max(kFewest, above.size() / kOneIn)));
+    gap_ = floor_gap(above);
+    density_per_s_ = 1 / std::max(kLeastGap_s, gap_.mean_s);
   }
 
  private:
@@ -73,6 +70,7 @@ class SlopeLikelihood {
   double mean_time_s_ = 0;
   double mean_delay_s_ = 0;
   double density_per_s_ = 0;
+  FloorGap gap_;
 };
 
 double best_slope(const SlopeLikelihood& likelihood) {
@@ -127,14 +125,14 @@ Envelope mean_over_slopes(const SlopeLikelihood& likelihood, double best) {
   }
   value /= weight;
   slope /= weight;
-  const double widened = kSigmaFactor * kSigmaFactor;
   Envelope envelope;
-  envelope.value_s = env0 + value - likelihood.gap_s();
+  envelope.value_s = env0 + value - likelihood.gap().mean_s;
   envelope.slope = best + slope;
-  envelope.variance_s2 =
-      widened * (value2 / weight - value * value + likelihood.gap_s() * likelihood.gap_s());
-  envelope.covariance_s = widened * (both / weight - value * slope);
-  envelope.slope_variance = widened * (slope2 / weight - slope * slope);
+  envelope.variance_s2 = value2 / weight - value * value +
+                         likelihood.gap().sigma_s * likelihood.gap().sigma_s +
+                         kLeastGap_s * kLeastGap_s;
+  envelope.covariance_s = both / weight - value * slope;
+  envelope.slope_variance = slope2 / weight - slope * slope;
   return envelope;
 }
 

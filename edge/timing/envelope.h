@@ -25,11 +25,11 @@ struct Envelope {
 // Near the floor the points are a Poisson process whose density (points per second of delay) is
 // about even, which is exact for exponential and uniform laws. Then for a slope d the floor lies
 // below env(d) = min(delay - d time) by an exponential of the inverse density, and the slope has
-// the likelihood exp(-density * area between the points' centre and env). The density is taken
-// from the few lowest points, not from all: the tail says nothing about the floor. Laws that begin
-// thinly (gamma) have fewer points at the floor than just above it; for them the gap is taken wider
-// and its sigma, too (checked by simulation over several laws). Posterior mean and covariance over
-// the slope are by numerical integration, with a normal prior of `slope_sigma` about 0.
+// the likelihood exp(-density * area between the points' centre and env). The inverse density is
+// the distance of the lowest point from where the law begins, as the lowest fifth of the points
+// tells it, with its sigma: floor_gap.h, which knows laws that begin thinly, too. The tail says
+// nothing about the floor. Posterior mean and covariance over the slope are by numerical
+// integration, with a normal prior of `slope_sigma` about 0.
 //
 // `points`: one or more, any order.
 Envelope lower_envelope(const std::vector<DelayPoint>& points, double slope_sigma);
