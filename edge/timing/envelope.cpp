@@ -18,10 +18,30 @@ constexpr double kLeastGap_s = 0.1e-3;
 constexpr double kUsualTail_s = 20e-3;
 constexpr double kSlopeLimitSigmas = 4;
 
+// The only points that a line from below can touch: the lower convex hull, by time (Andrew 1979,
+// "Another efficient algorithm for convex hulls in two dimensions"). Some ten of a hundred.
+std::vector<DelayPoint> lower_hull(std::vector<DelayPoint> points) {
+  std::sort(points.begin(), points.end(), [](const DelayPoint& a, const DelayPoint& b) {
+    return a.time_s != b.time_s ? a.time_s < b.time_s : a.delay_s < b.delay_s;
+  });
+  const auto turns_up = [](const DelayPoint& a, const DelayPoint& b, const DelayPoint& c) {
+    return (b.time_s - a.time_s) * (c.delay_s - a.delay_s) >
+           (b.delay_s - a.delay_s) * (c.time_s - a.time_s);
+  };
+  std::vector<DelayPoint> hull;
+  for (const DelayPoint& point : points) {
+    while (hull.size() > 1 && !turns_up(hull[hull.size() - 2], hull.back(), point)) {
+      hull.pop_back();
+    }
+    hull.push_back(point);
+  }
+  return hull;
+}
+
 class SlopeLikelihood {
  public:
   SlopeLikelihood(const std::vector<DelayPoint>& points, double slope_sigma)
-      : points_(points), slope_sigma_(slope_sigma) {
+      : points_(points), hull_(lower_hull(points)), slope_sigma_(slope_sigma) {
     for (const DelayPoint& point : points) {
       mean_time_s_ += point.time_s / static_cast<double>(points.size());
       mean_delay_s_ += point.delay_s / static_cast<double>(points.size());
@@ -32,8 +52,8 @@ class SlopeLikelihood {
 
   // The lowest line of that slope: its value at time 0.
   double env_s(double slope) const {
-    double least = points_.front().delay_s - slope * points_.front().time_s;
-    for (const DelayPoint& point : points_) {
+    double least = hull_.front().delay_s - slope * hull_.front().time_s;
+    for (const DelayPoint& point : hull_) {
       least = std::min(least, point.delay_s - slope * point.time_s);
     }
     return least;
@@ -50,9 +70,10 @@ class SlopeLikelihood {
 
   // The density at the floor, seen from the best line so far.
   void take_density_about(double slope) {
+    const double lowest_s = env_s(slope);
     std::vector<double> above;
     for (const DelayPoint& point : points_) {
-      above.push_back(point.delay_s - slope * point.time_s - env_s(slope));
+      above.push_back(point.delay_s - slope * point.time_s - lowest_s);
     }
     std::sort(above.begin(), above.end());
     above.resize(std::min(above.size(), std::max(kFewest, above.size() / kOneIn)));
@@ -66,6 +87,7 @@ class SlopeLikelihood {
   }
 
   const std::vector<DelayPoint>& points_;
+  std::vector<DelayPoint> hull_;
   double slope_sigma_;
   double mean_time_s_ = 0;
   double mean_delay_s_ = 0;
