@@ -136,6 +136,7 @@ Status SimDisk::make_folder(const std::string& path) {
 }
 
 Status SimDisk::sync_folder(const std::string& path) {
+  let_time_pass();
   const std::lock_guard lock(mutex_);
   if (const Status begun = begin("bring to the disk", path); !begun) return begun;
   if (!has_folder(path)) return fault("bring to the disk", path, "there is no such folder");
@@ -179,6 +180,12 @@ void SimDisk::set_capacity(std::uint64_t bytes) {
   capacity_ = bytes;
 }
 
+void SimDisk::slow_down(std::chrono::nanoseconds each_sync, Wait wait) {
+  const std::lock_guard lock(mutex_);
+  each_sync_ = each_sync;
+  wait_ = std::move(wait);
+}
+
 std::uint64_t SimDisk::operations() const {
   const std::lock_guard lock(mutex_);
   return operations_;
@@ -211,6 +218,15 @@ std::unique_ptr<SimDisk> SimDisk::after_power_cut(Random& random) const {
   }
   disk->durable_names_ = disk->names_;
   return disk;
+}
+
+// Without the lock, for others go on.
+void SimDisk::let_time_pass() {
+  std::unique_lock lock(mutex_);
+  const Wait wait = wait_;
+  const std::chrono::nanoseconds time = each_sync_;
+  lock.unlock();
+  if (wait && time > std::chrono::nanoseconds(0)) wait(time);
 }
 
 // Counts an operation, and fails it where that is its fate.
@@ -266,6 +282,7 @@ Status SimDisk::append(Content& content, const std::string& path, std::string_vi
 // Linux marks pages clean that it could not write: what was to be saved is gone, and a second sync
 // says that all is well.
 Status SimDisk::sync(Content& content, const std::string& path) {
+  let_time_pass();
   const std::lock_guard lock(mutex_);
   if (const Status begun = begin("bring to the disk", path); !begun) {
     if (!off_) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -42,6 +44,13 @@ class SimDisk : public Storage {
 
   void fail(std::uint64_t operation, DiskFault fault);
   void set_capacity(std::uint64_t bytes);
+
+  // From now on each sync, of a file or a folder, takes so long: before it takes effect, `wait`
+  // lets the time pass (a thread sleeps, a virtual clock runs on) on the caller's thread. Meanwhile
+  // others may use the disk, and a power cut finds nothing of it saved.
+  using Wait = std::function<void(std::chrono::nanoseconds)>;
+  void slow_down(std::chrono::nanoseconds each_sync, Wait wait);
+
   std::uint64_t operations() const;
 
   // The disk as it comes back when power was cut now. Of what was not synced each sector of 512
@@ -68,6 +77,7 @@ class SimDisk : public Storage {
   };
 
   Status begin(const std::string& attempted, const std::string& path);
+  void let_time_pass();
   Result<std::unique_ptr<WritableFile>> open(const std::string& path, bool must_be_new);
   ContentPointer file_at(const std::string& path) const;
   bool has_folder(const std::string& path) const;
@@ -82,6 +92,8 @@ class SimDisk : public Storage {
   std::uint64_t operations_ = 0;
   std::map<std::uint64_t, DiskFault> faults_;
   bool off_ = false;
+  std::chrono::nanoseconds each_sync_{};
+  Wait wait_;
   Names names_;
   Names durable_names_;
   std::vector<Change> changes_;

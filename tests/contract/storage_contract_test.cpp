@@ -3,8 +3,10 @@
 
 #include <sys/resource.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <thread>
 
 #include "drivers/posix/posix_storage.h"
 #include "sim/sim_disk.h"
@@ -58,8 +60,17 @@ class SimBench : public StorageBench {
   void allow_bytes(std::uint64_t bytes) override { disk_.set_capacity(bytes); }
   void allow_all() override { disk_.set_capacity(1'000'000'000); }
 
- private:
+ protected:
   sim::SimDisk disk_;
+};
+
+// What a worn card does, which no promise may rest on.
+class SlowSimBench : public SimBench {
+ public:
+  SlowSimBench() {
+    disk_.slow_down(std::chrono::milliseconds(20),
+                    [](auto time) { std::this_thread::sleep_for(time); });
+  }
 };
 
 template <typename Bench>
@@ -68,8 +79,8 @@ StorageMaker maker(const std::string& name) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AllStorages, StorageContract,
-                         ::testing::Values(maker<PosixBench>("Posix"),
-                                           maker<SimBench>("Simulated")),
+                         ::testing::Values(maker<PosixBench>("Posix"), maker<SimBench>("Simulated"),
+                                           maker<SlowSimBench>("SimulatedSlow")),
                          [](const auto& info) { return info.param.name; });
 
 }  // namespace

@@ -7,9 +7,12 @@
 #include <functional>
 #include <set>
 
+#include "sim/virtual_clock.h"
+
 namespace plumbline::sim {
 namespace {
 
+using std::chrono::seconds;
 using ::testing::HasSubstr;
 using ::testing::UnorderedElementsAre;
 
@@ -148,6 +151,65 @@ TEST(SimDisk, SaysThatThePowerIsOffToWhoeverGoesOn) {
   disk.fail(0, DiskFault::kPowerCut);
   EXPECT_THAT(disk.create("a").error().sentence, HasSubstr("power went off"));
   EXPECT_THAT(disk.list("").error().sentence, HasSubstr("power is off"));
+}
+
+TEST(SimDisk, IsFullAtExactlyItsCapacityWhateverTheFile) {
+  SimDisk disk(10);
+  auto one = disk.create("one");
+  auto two = disk.create("two");
+  ASSERT_TRUE((*one)->append("123456").ok());
+  EXPECT_EQ(*disk.free_bytes(), 4u);
+  ASSERT_TRUE((*two)->append("1234").ok());
+  EXPECT_EQ(*disk.free_bytes(), 0u);
+  const Status refused = (*one)->append("7");
+  ASSERT_FALSE(refused.ok());
+  EXPECT_THAT(refused.error().sentence, HasSubstr("disk is full"));
+  EXPECT_EQ(*disk.read("one"), "123456");
+  ASSERT_TRUE(disk.remove("two").ok());
+  EXPECT_TRUE((*one)->append("7890").ok());
+}
+
+TEST(SimDisk, TakesItsTimeForEachSyncOnAVirtualClock) {
+  VirtualClock clock;
+  SimDisk disk;
+  disk.slow_down(seconds(2), [&](auto time) { clock.run_until(clock.now() + time); });
+  ASSERT_TRUE(publish(disk, "photo", "bytes").ok());  // a sync of the file, one of the folder
+  EXPECT_EQ(clock.now(), HostTime(seconds(4)));
+  disk.slow_down(seconds(0), nullptr);
+  ASSERT_TRUE(publish(disk, "photo", "more bytes").ok());
+  EXPECT_EQ(clock.now(), HostTime(seconds(4)));
+}
+
+TEST(SimDisk, ServesOthersWhileASyncTakesItsTime) {
+  VirtualClock clock;
+  SimDisk disk;
+  disk.slow_down(seconds(2), [&](auto time) { clock.run_until(clock.now() + time); });
+  auto file = disk.create("slow");
+  ASSERT_TRUE((*file)->append("bytes").ok());
+  std::string read;
+  clock.after(seconds(1), [&] { read = *disk.read("slow"); });
+  ASSERT_TRUE((*file)->sync().ok());
+  EXPECT_EQ(read, "bytes");
+}
+
+TEST(SimDisk, MayLoseWhatASlowSyncWasSavingWhenThePowerWasCut) {
+  Random random(3, 1);
+  int kept = 0;
+  for (int i = 0; i < 100; ++i) {
+    VirtualClock clock;
+    SimDisk disk;
+    auto file = disk.create("file");
+    ASSERT_TRUE(disk.sync_folder("").ok());
+    ASSERT_TRUE((*file)->append("bytes").ok());
+    disk.slow_down(seconds(2), [&](auto time) { clock.run_until(clock.now() + time); });
+    std::unique_ptr<SimDisk> cut;
+    clock.after(seconds(1), [&] { cut = disk.after_power_cut(random); });
+    ASSERT_TRUE((*file)->sync().ok());
+    kept += *cut->read("file") == "bytes" ? 1 : 0;
+    EXPECT_EQ(*disk.after_power_cut(random)->read("file"), "bytes");
+  }
+  EXPECT_GT(kept, 10);
+  EXPECT_LT(kept, 90);
 }
 
 }  // namespace
