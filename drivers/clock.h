@@ -3,15 +3,9 @@
 
 #include "drivers/signal.h"
 #include "edge/base/time.h"
+#include "edge/base/wall_reading.h"
 
 namespace plumbline {
-
-// The same instant on two clocks.
-struct WallReading {
-  HostTime host;  // middle of the two host readings around the wall reading
-  WallTime wall;
-  std::chrono::nanoseconds spread;  // between the two host readings: `wall` is within half of it
-};
 
 // SEAM: the time, and waiting for it. Every member may be called from any thread; wait() by one
 // thread per Signal. Nothing here fails.

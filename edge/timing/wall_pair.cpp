@@ -7,8 +7,8 @@ namespace plumbline::timing {
 
 using std::chrono::nanoseconds;
 
-std::optional<StampOnHost> host_of_wall(WallTime stamp, const WallPair& before,
-                                        const WallPair& after, const WallOptions& options) {
+std::optional<StampOnHost> host_of_wall(WallTime stamp, const WallReading& before,
+                                        const WallReading& after, const WallOptions& options) {
   if (after.host <= before.host || stamp < before.wall || stamp > after.wall) return std::nullopt;
   const nanoseconds host_span = after.host - before.host;
   const nanoseconds wall_span = after.wall - before.wall;

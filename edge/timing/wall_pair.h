@@ -5,16 +5,9 @@
 #include <optional>
 
 #include "edge/base/time.h"
+#include "edge/base/wall_reading.h"
 
 namespace plumbline::timing {
-
-// The wall clock read between two readings of the host clock: `host` is their middle, `spread`
-// their distance, so the pair is right within half of it.
-struct WallPair {
-  HostTime host;
-  WallTime wall;
-  std::chrono::nanoseconds spread{};
-};
 
 struct WallOptions {
   double slew_limit = 600e-6;  // adjtime and NTP steer by 500 ppm at most, crystals by 100
@@ -29,7 +22,7 @@ struct StampOnHost {
 // A stamp of the wall clock (/dev/pps) on the host clock, from a pair taken before it and one after
 // it. Empty where the stamp does not lie between them, or where the wall clock was stepped in
 // between: then the stamp's own side is not known.
-std::optional<StampOnHost> host_of_wall(WallTime stamp, const WallPair& before,
-                                        const WallPair& after, const WallOptions& options = {});
+std::optional<StampOnHost> host_of_wall(WallTime stamp, const WallReading& before,
+                                        const WallReading& after, const WallOptions& options = {});
 
 }  // namespace plumbline::timing
