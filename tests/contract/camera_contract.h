@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -65,6 +66,8 @@ class CameraBench {
   virtual std::unique_ptr<Camera> camera() = 0;  // the same device each time
   virtual std::unique_ptr<Camera> missing_camera() = 0;
   virtual CameraOptions options() = 0;
+  // The rate by which the driver counts what an outage lost; empty: that at which frames come.
+  virtual std::optional<std::chrono::nanoseconds> period() { return std::nullopt; }
   virtual HostTime now() = 0;
   virtual void pass(std::chrono::nanoseconds time) = 0;
 

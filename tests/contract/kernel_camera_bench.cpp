@@ -45,6 +45,17 @@ class KernelCameraBench : public CameraBench {
     return options;
   }
 
+  std::optional<std::chrono::nanoseconds> period() override {
+    const V4l2Device device(id_);
+    v4l2_streamparm parameters{};
+    parameters.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
+    if (device.open_error() != 0 || device.call(VIDIOC_G_PARM, &parameters) != 0) {
+      return std::nullopt;
+    }
+    const v4l2_fract interval = parameters.parm.capture.timeperframe;
+    return std::chrono::nanoseconds(1'000'000'000LL * interval.numerator / interval.denominator);
+  }
+
   HostTime now() override { return clock_.now(); }
   void pass(std::chrono::nanoseconds time) override { std::this_thread::sleep_for(time); }
 
