@@ -24,22 +24,25 @@ hil_download() {
   (cd "$hil_build" && apt-get download --quiet "$1" >/dev/null && ls -t "${1%%=*}"_*.deb | head -n 1)
 }
 
+# In the kernel's source and not in Debian's kernel.
+hil_test_drivers=(irq_sim gpio-sim pps-ktimer)
+
 # The tree of the stock kernel, unpacked, with the test drivers that it was built without.
 hil_kernel() {
-  local version tree
+  local version tree complete
   version=$(hil_version)
   tree=$hil_build/kernel-$version
-  if [ ! -e "$tree/complete" ]; then
+  complete=$tree/complete-with-$(IFS=-; echo "${hil_test_drivers[*]}")
+  if [ ! -e "$complete" ]; then
     mkdir -p "$tree"
     dpkg-deb --extract "$hil_build/$(hil_download "linux-image-$version")" "$tree"
     hil_build_test_drivers "$version" "$tree"
     depmod --basedir "$tree" "$version"
-    touch "$tree/complete"
+    touch "$complete"
   fi
   echo "$tree"
 }
 
-# gpio-sim is in the kernel's source and not in Debian's kernel.
 hil_build_test_drivers() {
   local version=$1 tree=$2 work=$hil_build/modules-$1 archive
   archive=$(ls /usr/src/linux-source-*.tar.xz | tail -n 1)
@@ -47,6 +50,8 @@ hil_build_test_drivers() {
   tar --extract --xz --file "$archive" --directory "$work" --strip-components=3 \
     --wildcards '*/drivers/gpio/gpio-sim.c' '*/drivers/gpio/gpiolib.h'
   tar --extract --xz --file "$archive" --directory "$work" --strip-components=3 --wildcards '*/kernel/irq/irq_sim.c'
+  tar --extract --xz --file "$archive" --directory "$work" --strip-components=4 \
+    --wildcards '*/drivers/pps/clients/pps-ktimer.c'
   mkdir -p "$work/include"
   mv "$work/gpiolib.h" "$work/include/"
   # irq_sim.c is meant to be part of the kernel: as a module it may not use irq_to_desc(), and
@@ -54,7 +59,7 @@ hil_build_test_drivers() {
   sed -i 's/irq_to_desc(irqnum)/irq_data_to_desc(irq_get_irq_data(irqnum))/' "$work/irq_sim.c"
   printf '\n#include <linux/module.h>\nMODULE_LICENSE("GPL");\n' >>"$work/irq_sim.c"
   # shellcheck disable=SC2016 # $(src) is make's
-  printf 'obj-m += irq_sim.o gpio-sim.o\nccflags-y += -I$(src)/include\n' >"$work/Kbuild"
+  printf 'obj-m += %s\nccflags-y += -I$(src)/include\n' "${hil_test_drivers[*]/%/.o}" >"$work/Kbuild"
   make --quiet --directory "/usr/src/linux-headers-$version" M="$work" modules >"$work/make.log" 2>&1 ||
     { tail -n 20 "$work/make.log" >&2; return 1; }
   mkdir -p "$tree/lib/modules/$version/updates"
