@@ -52,9 +52,8 @@ std::string of_32(std::initializer_list<unsigned> first) {
 
 }  // namespace
 
-UvcCamera::UvcCamera(RedirLink& link, UvcMode mode, UvcPicture picture, const UvcOrders& orders,
-                     milliseconds delay)
-    : link_(link), mode_(mode), picture_(std::move(picture)), orders_(orders), delay_(delay) {
+UvcCamera::UvcCamera(RedirLink& link, UvcMode mode, UvcPicture picture, const UvcOrders& orders)
+    : link_(link), mode_(mode), picture_(std::move(picture)), orders_(orders) {
   controls_[kExposureMode] = {
       1, 1, 8, kManual | kAperturePriority, kAperturePriority, kAperturePriority};
   controls_[kExposureTime] = {4, 1, 10000, 1, 156, 156};
@@ -73,8 +72,13 @@ void UvcCamera::run() {
 void UvcCamera::unplug() {
   link_.send(Redir::kDisconnect, 0, "");
   waiting_.clear();
-  image_.clear();
+  forget_images();
   plugged_ = false;
+}
+
+void UvcCamera::forget_images() {
+  images_.clear();
+  sent_ = 0;
 }
 
 void UvcCamera::plug_in() {
@@ -131,7 +135,7 @@ void UvcCamera::take(const RedirPacket& packet) {
       return;
     case Redir::kReset:
       waiting_.clear();
-      image_.clear();
+      forget_images();
       return;
     default:
       return;
@@ -246,13 +250,14 @@ void UvcCamera::take_cancel(std::uint64_t id) {
   if (found == waiting_.end()) return;
   waiting_.erase(found);
   link_.send(Redir::kBulk, id, bulk_header(kCancelled, 0));
-  if (waiting_.empty()) image_.clear();  // the stream is over: a new one begins with a new frame
+  if (waiting_.empty()) forget_images();  // the stream is over: a new one begins with a new frame
 }
 
 milliseconds UvcCamera::until_next_frame() const {
   constexpr milliseconds kOrders(20);  // looked at so often
-  if (waiting_.empty() || orders_.silent) return kOrders;
-  const SteadyTime next = image_.empty() ? next_exposure_ : ready_;
+  if (waiting_.empty()) return kOrders;
+  SteadyTime next = next_exposure_;
+  if (!images_.empty()) next = std::min(next, images_.front().ready);
   const auto left = std::chrono::ceil<milliseconds>(next - std::chrono::steady_clock::now());
   return std::clamp(left, milliseconds(0), kOrders);
 }
@@ -260,37 +265,39 @@ milliseconds UvcCamera::until_next_frame() const {
 void UvcCamera::feed() {
   while (plugged_ && link_.is_open() && !waiting_.empty()) {
     const SteadyTime now = std::chrono::steady_clock::now();
-    if (image_.empty()) {
-      if (now < next_exposure_ || orders_.silent) return;
-      expose(now);
-    }
-    if (std::chrono::steady_clock::now() < ready_) return;
+    if (now >= next_exposure_) expose(now);
+    if (images_.empty() || now < images_.front().ready) return;
     const Transfer transfer = waiting_.front();
     waiting_.pop_front();
     complete(transfer);
   }
 }
 
-// Keeps to an even rate, unless it is a whole interval behind.
+// Keeps to an even rate, unless it is a whole interval behind. Exposes while earlier images wait.
 void UvcCamera::expose(SteadyTime now) {
+  constexpr std::size_t kMostImages = 4;
   const auto interval = std::chrono::nanoseconds(100) * mode_.interval_100ns();
-  next_exposure_ = std::max(next_exposure_ + interval, now);
-  image_ = picture_(frames_, settings());
-  sent_ = 0;
-  ready_ = now + delay_;
+  next_exposure_ = (now - next_exposure_ > interval ? now : next_exposure_) + interval;
+  if (orders_.silent || images_.size() >= kMostImages) return;
+  const UvcSettings set = settings();
+  const auto exposure = std::chrono::microseconds(100) * set.exposure_100us;
+  const auto delay = random_.uniform() * milliseconds(orders_.longest_delay_ms);
+  images_.push_back({picture_({set, now + exposure / 2}),
+                     now + exposure + std::chrono::duration_cast<std::chrono::nanoseconds>(delay)});
 }
 
 // A payload: its header (length; bits for which frame and its end), then a part of the frame.
 void UvcCamera::complete(Transfer transfer) {
   const std::size_t room = std::min<std::size_t>(transfer.bytes, kUvcPayloadBytes) - 2;
-  const std::string_view part = std::string_view(image_).substr(sent_, room);
+  const std::string_view part = std::string_view(images_.front().bytes).substr(sent_, room);
   sent_ += part.size();
-  const bool last = sent_ >= image_.size();
+  const bool last = sent_ >= images_.front().bytes.size();
   const unsigned bits = 0x80U | static_cast<unsigned>(frames_ & 1) | (last ? 2U : 0U);
   link_.send(Redir::kBulk, transfer.id,
              Bytes().add(bulk_header(kSuccess, part.size() + 2)).u8(2).u8(bits).add(part).str());
   if (!last) return;
-  image_.clear();
+  images_.pop_front();
+  sent_ = 0;
   ++frames_;
 }
 

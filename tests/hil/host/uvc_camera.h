@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "sim/random.h"
 #include "tests/hil/host/usbredir.h"
 #include "tests/hil/host/uvc_descriptors.h"
 
@@ -22,21 +23,27 @@ struct UvcSettings {
   bool automatic = true;
 };
 
-// One frame of YUY2, exposed now.
-using UvcPicture = std::function<std::string(std::uint64_t frame, const UvcSettings& settings)>;
+struct UvcExposure {
+  UvcSettings set;
+  std::chrono::steady_clock::time_point middle;
+};
+
+// One frame of YUY2.
+using UvcPicture = std::function<std::string(const UvcExposure& exposure)>;
 
 // What is done to it, from another thread.
 struct UvcOrders {
   std::atomic<bool> plugged{true};
   std::atomic<bool> silent{false};  // no frame comes
+  // From a frame's exposure to its first byte: for each frame another time, up to this.
+  std::atomic<int> longest_delay_ms{0};
 };
 
 // A USB camera that exists only in this program: plugs itself into QEMU's usb-redir device and
 // streams to the guest's own driver (uvcvideo) until QEMU ends. One thread.
 class UvcCamera {
  public:
-  UvcCamera(RedirLink& link, UvcMode mode, UvcPicture picture, const UvcOrders& orders,
-            std::chrono::milliseconds delay);  // from a frame's exposure to its first byte
+  UvcCamera(RedirLink& link, UvcMode mode, UvcPicture picture, const UvcOrders& orders);
 
   void run();
 
@@ -50,6 +57,10 @@ class UvcCamera {
     int size = 0;
     std::uint64_t least = 0, most = 0, step = 0, usual = 0, now = 0;
   };
+  struct Image {
+    std::string bytes;
+    SteadyTime ready;  // to be sent
+  };
   struct Transfer {
     std::uint64_t id = 0;
     std::size_t bytes = 0;
@@ -57,6 +68,7 @@ class UvcCamera {
 
   void plug_in();
   void unplug();
+  void forget_images();
   void send_endpoints();
   void take(const RedirPacket& packet);
   void take_control(const RedirPacket& packet);
@@ -77,13 +89,12 @@ class UvcCamera {
   const UvcMode mode_;
   const UvcPicture picture_;
   const UvcOrders& orders_;
-  const std::chrono::milliseconds delay_;
   std::map<std::pair<unsigned, unsigned>, Control> controls_;  // by entity and selector
   std::deque<Transfer> waiting_;
-  std::string image_;  // of the frame that is being sent
-  std::size_t sent_ = 0;
+  std::deque<Image> images_;  // exposed; the first is being sent
+  std::size_t sent_ = 0;      // of its bytes
   SteadyTime next_exposure_{};
-  SteadyTime ready_{};
+  sim::Random random_{20261128, 1};
   std::uint64_t frames_ = 0;  // sent whole
   bool plugged_ = false;
 };
