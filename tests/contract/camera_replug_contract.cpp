@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "sim/random.h"
@@ -65,6 +66,13 @@ HostTime time_of(const std::vector<CameraReport>& reports, CameraState state, st
       ->time;
 }
 
+// For a person who wonders why a camera did not come back.
+std::string told(const std::vector<CameraReport>& reports, std::size_t after) {
+  std::string sentences;
+  for (std::size_t i = after; i < reports.size(); ++i) sentences += reports[i].sentence + "\n";
+  return sentences;
+}
+
 TEST_P(CameraContract, IsBackAfterEachOfFiftyPullsAndHasCountedWhatItMissed) {
   sim::Random random(20261120, 51);
   const auto some_time = [&] { return milliseconds(static_cast<int>(random.uniform(0, 250))); };
@@ -84,7 +92,9 @@ TEST_P(CameraContract, IsBackAfterEachOfFiftyPullsAndHasCountedWhatItMissed) {
     bench_->pass(some_time());
     const HostTime put_back = bench_->now();
     bench_->plug_in();
-    ASSERT_TRUE(reports(CameraState::kStreaming, reported + 1, kReturn)) << pull;
+    ASSERT_TRUE(reports(CameraState::kStreaming, reported + 1, kReturn))
+        << pull << "\n"
+        << told(events_.reports(), reported);
     until_back.add(events_.reports().back().time - put_back);
     ASSERT_TRUE(frames_come(2, kReturn)) << pull;
   }
