@@ -68,6 +68,7 @@ class CameraBench {
   virtual CameraOptions options() = 0;
   // The rate by which the driver counts what an outage lost; empty: that at which frames come.
   virtual std::optional<std::chrono::nanoseconds> period() { return std::nullopt; }
+  virtual int pulls() { return 50; }  // how often it is unplugged in a row
   virtual HostTime now() = 0;
   virtual void pass(std::chrono::nanoseconds time) = 0;
 

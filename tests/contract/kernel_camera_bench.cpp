@@ -56,6 +56,11 @@ class KernelCameraBench : public CameraBench {
     return std::chrono::nanoseconds(1'000'000'000LL * interval.numerator / interval.denominator);
   }
 
+  int pulls() override {
+    const std::string count = from_environment("PLUMBLINE_TEST_CAMERA_PULLS");
+    return count.empty() ? CameraBench::pulls() : std::stoi(count);
+  }
+
   HostTime now() override { return clock_.now(); }
   void pass(std::chrono::nanoseconds time) override { std::this_thread::sleep_for(time); }
 

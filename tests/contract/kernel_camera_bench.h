@@ -13,6 +13,7 @@ namespace plumbline::contract {
 // commands in the environment:
 //   PLUMBLINE_TEST_CAMERA_UNPLUG, PLUMBLINE_TEST_CAMERA_REPLUG    a pulled plug, put back
 //   PLUMBLINE_TEST_CAMERA_SILENCE, PLUMBLINE_TEST_CAMERA_SPEAK    no frames, and frames again
+//   PLUMBLINE_TEST_CAMERA_PULLS   how often it is unplugged in a row (50)
 //   PLUMBLINE_TEST_CAMERA_SIZE    WIDTHxHEIGHT to stream in (640x360)
 std::unique_ptr<CameraBench> make_kernel_camera_bench(const std::string& id);
 

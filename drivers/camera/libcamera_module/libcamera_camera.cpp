@@ -349,7 +349,7 @@ ExposureTiming LibcameraCamera::timing_of(libcamera::Request& request, HostTime 
   if (const auto us = metadata.get(libcamera::controls::FrameDuration)) {
     account_.set_period(std::chrono::microseconds(*us));
   } else if (last_stamp_ && sequence > last_sequence_ && stamp > *last_stamp_) {
-    account_.set_period((stamp - *last_stamp_) / (sequence - last_sequence_));
+    learn_period((stamp - *last_stamp_) / (sequence - last_sequence_));
   }
   last_stamp_ = stamp;
   last_sequence_ = sequence;
@@ -365,6 +365,15 @@ ExposureTiming LibcameraCamera::timing_of(libcamera::Request& request, HostTime 
     model.row_time = nanoseconds(*skew_ns / (model.rows - 1));
   }
   return exposure_of(stamp, model);
+}
+
+// By the last frames, also those from before an outage: one interval alone is as wrong as the
+// stamps at its ends, and what is lost in an outage is counted by it.
+void LibcameraCamera::learn_period(nanoseconds interval) {
+  constexpr int kFrames = 30;
+  intervals_ = std::min(intervals_ + 1, kFrames);
+  const nanoseconds before = account_.period();
+  account_.set_period(before + (interval - before) / intervals_);
 }
 
 void LibcameraCamera::note_lens(const libcamera::ControlList& metadata) {

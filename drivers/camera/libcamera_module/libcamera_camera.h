@@ -63,6 +63,7 @@ class LibcameraCamera : public Camera {
   std::shared_ptr<const RawImage> lend(libcamera::Request* request,
                                        std::span<const std::uint8_t> bytes);
   ExposureTiming timing_of(libcamera::Request& request, HostTime stamp);
+  void learn_period(std::chrono::nanoseconds interval);
   void note_lens(const libcamera::ControlList& metadata);
   void fail(CameraState state, const std::string& sentence);
   void send(CameraEvent event) { sink_(std::move(event)); }
@@ -82,6 +83,7 @@ class LibcameraCamera : public Camera {
   std::optional<double> lens_position_;
   std::optional<HostTime> last_stamp_;
   unsigned last_sequence_ = 0;
+  int intervals_ = 0;  // that the period was learnt from, up to a limit
   int interior_number_ = 0;
   std::vector<std::string> said_;
   CameraWatch watch_;
