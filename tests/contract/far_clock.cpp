@@ -8,8 +8,6 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "drivers/camera/monotonic.h"
-
 namespace plumbline::contract {
 
 FarClock::FarClock(const std::string& path)
@@ -32,10 +30,10 @@ std::optional<ClockTie> FarClock::tie() {
 }
 
 std::optional<ClockTie> FarClock::ask() {
-  const HostTime before = monotonic_now();
+  const HostTime before = clock_.now();
   say("time");
   const auto theirs_ns = answer();
-  const HostTime after = monotonic_now();
+  const HostTime after = clock_.now();
   if (!theirs_ns) return std::nullopt;
   const std::chrono::nanoseconds half = (after - before) / 2;
   return ClockTie{before + half, *theirs_ns, half};

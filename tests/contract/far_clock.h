@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "drivers/posix/descriptor.h"
+#include "drivers/posix/system_clock.h"
 #include "edge/base/time.h"
 
 namespace plumbline::contract {
@@ -34,6 +35,7 @@ class FarClock {
   std::optional<ClockTie> ask();
   std::optional<std::int64_t> answer();
 
+  posix::SystemClock clock_;
   posix::Descriptor port_;
 };
 
