@@ -17,6 +17,7 @@ const std::map<std::string_view, std::vector<std::string_view>> kRoomsBelow = {
     {"geodesy", {"base"}},
     {"gnss", {"base", "geodesy"}},
     {"timing", {"base", "geodesy", "gnss"}},
+    {"mavlink", {"base"}},
     {"capture", {"base"}},
     {"pixels", {"base", "jpeg"}},
     {"jpeg", {"base"}},
