@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -70,6 +71,15 @@ class ByteStream {
   virtual Status set_speed(int /*baud*/) { return Done{}; }
 
   virtual std::string name() const = 0;  // "/dev/ttyACM0"
+};
+
+// A place that takes bytes too.
+class DuplexStream : public ByteStream {
+ public:
+  // At once: returns how many of the first bytes were taken, 0 where the line is full or nobody is
+  // there to send to. A stream that has gone takes nothing, and the next read() says so. Of a
+  // stream of datagrams the bytes are one, taken whole or not at all.
+  virtual std::size_t write(std::string_view bytes) = 0;
 };
 
 }  // namespace plumbline

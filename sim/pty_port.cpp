@@ -53,4 +53,15 @@ void PtyPort::send(std::string_view bytes) {
   }
 }
 
+std::string PtyPort::received() {
+  std::string bytes;
+  std::array<char, 1024> buffer{};
+  while (master_ >= 0) {
+    const ssize_t count = ::read(master_, buffer.data(), buffer.size());
+    if (count <= 0) break;
+    bytes.append(buffer.data(), static_cast<std::size_t>(count));
+  }
+  return bytes;
+}
+
 }  // namespace plumbline::sim

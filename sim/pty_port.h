@@ -27,6 +27,9 @@ class PtyPort {
   // What the receiver sends. Bytes that nobody takes are lost, as on a line; none wait.
   void send(std::string_view bytes);
 
+  // What was written to the port since the last call.
+  std::string received();
+
   const std::string& path() const { return path_; }
 
  private:

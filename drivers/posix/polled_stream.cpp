@@ -12,7 +12,7 @@ ByteStream::Reading PolledStream::read(std::chrono::nanoseconds at_most) {
   if (!descriptor_.is_open()) return gone(EBADF);
   const short happened = wait_.wait(descriptor_.get(), POLLIN, at_most);
   if (happened == 0) return {Arrival::kNothing, {}, {}};
-  const ssize_t count = ::read(descriptor_.get(), buffer_.data(), buffer_.size());
+  const ssize_t count = get(buffer_.data(), buffer_.size());
   if (count > 0) {
     return {Arrival::kBytes, {buffer_.data(), static_cast<std::size_t>(count)}, {}};
   }
@@ -22,6 +22,12 @@ ByteStream::Reading PolledStream::read(std::chrono::nanoseconds at_most) {
   const bool broken = (happened & (POLLHUP | POLLERR | POLLNVAL)) != 0;
   if (again && !broken) return {Arrival::kNothing, {}, {}};
   return gone(fault);
+}
+
+std::size_t PolledStream::write(std::string_view bytes) {
+  if (!descriptor_.is_open()) return 0;
+  const ssize_t count = put(bytes);
+  return count > 0 ? static_cast<std::size_t>(count) : 0;
 }
 
 ByteStream::Reading PolledStream::gone(int fault) {

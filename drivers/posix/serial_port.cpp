@@ -80,7 +80,7 @@ ByteStream::Opening SerialPort::open() {
 ByteStream::Opening SerialPort::not_open(int fault) const {
   if (is_absence(fault)) {
     return {Presence::kAbsent, "There is no port " + path_ +
-                                   ": plug the receiver in, or check its cable and power; it is "
+                                   ": plug its device in, or check the cable and its power; it is "
                                    "taken up as soon as it is there."};
   }
   return {Presence::kRefused, path_ + " " + refusal_of(fault)};
@@ -137,7 +137,8 @@ Status SerialPort::set_speed(int baud) {
 
 std::string SerialPort::why_gone(int fault) const {
   if (fault == 0 || is_absence(fault) || fault == EBADF) {
-    return "has gone: plug the receiver in again, or check its cable and power; it is taken up as "
+    return "has gone: plug its device in again, or check the cable and its power; it is taken up "
+           "as "
            "soon as it is back.";
   }
   return std::string("fails: ") + std::strerror(fault) + "; it is opened again.";

@@ -70,6 +70,11 @@ int TcpStream::finish_connecting() {
   return fault;
 }
 
+// A connection that was cut is an error here, not a signal that ends the program.
+ssize_t TcpStream::put(std::string_view bytes) const {
+  return ::send(descriptor_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
+}
+
 ByteStream::Opening TcpStream::not_reached(const std::string& why) const {
   return {Presence::kAbsent, name() + " does not answer (" + why +
                                  "): check that the receiver is on, in this network, and sends its "

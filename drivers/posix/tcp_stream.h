@@ -19,6 +19,7 @@ class TcpStream : public PolledStream {
   std::string name() const override { return "tcp://" + host_ + ":" + port_; }
 
  private:
+  ssize_t put(std::string_view bytes) const override;
   std::string why_gone(int fault) const override;
   int connect_to(const addrinfo& address);
   int finish_connecting();

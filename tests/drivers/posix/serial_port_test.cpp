@@ -49,6 +49,41 @@ class SerialPortTest : public testing::Test {
   sim::PtyPort cable_;
 };
 
+TEST_F(SerialPortTest, SendsEveryByteAsItIs) {
+  ASSERT_TRUE(cable_.plug_in());
+  SerialPort port(cable_.path());
+  EXPECT_EQ(port.write("not open"), 0u);
+  ASSERT_EQ(port.open().presence, Presence::kOpen);
+  std::string sent;
+  for (int c = 0; c < 256; ++c) sent.push_back(static_cast<char>(c));
+  EXPECT_EQ(port.write(sent), sent.size());
+  EXPECT_EQ(cable_.received(), sent);
+}
+
+TEST_F(SerialPortTest, TakesNothingForALineThatIsFull) {
+  ASSERT_TRUE(cable_.plug_in());
+  SerialPort port(cable_.path());
+  ASSERT_EQ(port.open().presence, Presence::kOpen);
+  const std::string much(100000, 'x');
+  std::size_t taken = 0;
+  for (std::size_t last = 1; last > 0;) {
+    last = port.write(std::string_view(much).substr(taken));
+    taken += last;
+  }
+  EXPECT_LT(taken, much.size());
+  EXPECT_EQ(cable_.received().size(), taken);
+  EXPECT_GT(port.write("there is room again"), 0u);
+}
+
+TEST_F(SerialPortTest, TakesNothingForAPortThatHasGone) {
+  ASSERT_TRUE(cable_.plug_in());
+  SerialPort port(cable_.path());
+  ASSERT_EQ(port.open().presence, Presence::kOpen);
+  cable_.pull();
+  EXPECT_EQ(port.write("anybody"), 0u);
+  EXPECT_EQ(port.read(seconds(1)).arrival, Arrival::kGone);
+}
+
 TEST_F(SerialPortTest, HandsOnEveryByteAsItIs) {
   ASSERT_TRUE(cable_.plug_in());
   SerialPort port(cable_.path());
