@@ -8,12 +8,15 @@
 #include "drivers/camera/camera_module.h"
 #include "drivers/camera/v4l2_camera.h"
 #include "drivers/gnss/stream_receiver.h"
+#include "drivers/mavlink/stream_pilot_link.h"
 #include "drivers/posix/file_stream.h"
 #include "drivers/posix/serial_port.h"
 #include "drivers/posix/serial_port_list.h"
 #include "drivers/posix/system_clock.h"
 #include "drivers/posix/tcp_stream.h"
+#include "drivers/posix/udp_stream.h"
 #include "edge/gnss/stream_decoder.h"
+#include "edge/mavlink/conversation.h"
 
 namespace plumbline {
 namespace {
@@ -26,16 +29,26 @@ ReceiverResult receiver_on(std::unique_ptr<ByteStream> stream, const Clock& cloc
       gnss_driver::StreamReceiverOptions{.baud = baud})};
 }
 
-ReceiverResult receiver_on_host(const std::string& address, const Clock& clock) {
-  constexpr std::string_view kScheme = "tcp://";
-  const std::string place = address.substr(kScheme.size());
-  const std::size_t colon = place.rfind(':');
-  if (colon == std::string::npos || colon == 0 || colon + 1 == place.size()) {
-    return Error{"'" + address + "' names no host and port: write tcp://HOST:PORT."};
+struct HostAndPort {
+  std::string host;
+  std::string port;
+};
+
+// Of "tcp://HOST:PORT" and the like.
+Result<HostAndPort> host_and_port(const std::string& address) {
+  const std::size_t begin = address.find("://") + 3;
+  const std::size_t colon = address.rfind(':');
+  if (colon <= begin || colon + 1 == address.size()) {
+    return Error{"'" + address + "' names no host and port: write " + address.substr(0, begin) +
+                 "HOST:PORT."};
   }
-  return receiver_on(
-      std::make_unique<posix::TcpStream>(place.substr(0, colon), place.substr(colon + 1)), clock,
-      0);
+  return HostAndPort{address.substr(begin, colon - begin), address.substr(colon + 1)};
+}
+
+ReceiverResult receiver_on_host(const std::string& address, const Clock& clock) {
+  const Result<HostAndPort> place = host_and_port(address);
+  if (!place) return place.error();
+  return receiver_on(std::make_unique<posix::TcpStream>(place->host, place->port), clock, 0);
 }
 
 // The number after '@'; 0 where there is none, -1 where it is no number.
@@ -58,6 +71,33 @@ ReceiverResult receiver_on_port(const std::string& address, const Clock& clock) 
     if (const Status speed = port->set_speed(baud); !speed) return speed.error();
   }
   return receiver_on(std::move(port), clock, baud);
+}
+
+using PilotResult = Result<std::unique_ptr<PilotLink>>;
+
+PilotResult pilot_on(std::unique_ptr<DuplexStream> stream, const Clock& clock,
+                     mavlink_driver::StreamPilotLinkOptions options = {}) {
+  return {std::make_unique<mavlink_driver::StreamPilotLink>(
+      std::move(stream), mavlink::make_conversation, clock, options)};
+}
+
+PilotResult pilot_on_network(const std::string& address, const Clock& clock) {
+  using Role = posix::UdpStream::Role;
+  const Result<HostAndPort> place = host_and_port(address);
+  if (!place) return place.error();
+  const Role role = place->host == "0.0.0.0" ? Role::kListens : Role::kSpeaks;
+  return pilot_on(std::make_unique<posix::UdpStream>(role, place->host, place->port), clock);
+}
+
+PilotResult pilot_on_port(const std::string& address, const Clock& clock) {
+  const int baud = baud_of(address);
+  auto port = std::make_unique<posix::SerialPort>(address.substr(0, address.find('@')));
+  if (baud < 0) {
+    return Error{"'" + address + "' names no speed after '@': write " + port->name() + "@57600."};
+  }
+  if (baud == 0) return pilot_on(std::move(port), clock);
+  if (const Status speed = port->set_speed(baud); !speed) return speed.error();
+  return pilot_on(std::move(port), clock, {.baud = baud});
 }
 
 constexpr std::string_view kLibcamera = "libcamera:";
@@ -89,6 +129,14 @@ ReceiverResult make_receiver(const std::string& address, const Clock& clock) {
   }
   if (!address.empty()) return receiver_on_port(address, clock);
   return Error{"The receiver has no address: write a port, tcp://HOST:PORT or a log."};
+}
+
+PilotResult make_pilot_link(const std::string& address, const Clock& clock) {
+  if (address.starts_with("udp://")) return pilot_on_network(address, clock);
+  if (address.starts_with("/")) return pilot_on_port(address, clock);
+  return Error{"'" + address +
+               "' is no address of an autopilot: write a port (/dev/ttyAMA1@57600), "
+               "udp://0.0.0.0:14550 or udp://HOST:PORT."};
 }
 
 std::vector<SerialPortInfo> list_serial_ports() { return posix::list_serial_ports(); }

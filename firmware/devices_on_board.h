@@ -9,6 +9,7 @@
 #include "drivers/camera.h"
 #include "drivers/clock.h"
 #include "drivers/gnss_receiver.h"
+#include "drivers/pilot_link.h"
 #include "edge/base/result.h"
 
 namespace plumbline {
@@ -21,6 +22,12 @@ std::unique_ptr<Clock> make_clock();
 // path of a log, which is played as fast as it is read. Fails where the address is none; whether
 // the receiver is there is start()'s business. `clock` outlives the receiver.
 Result<std::unique_ptr<GnssReceiver>> make_receiver(const std::string& address, const Clock& clock);
+
+// "/dev/ttyAMA1@921600" (57600 baud where no speed is said), "udp://0.0.0.0:14550" (waits to be
+// spoken to at that port), or "udp://HOST:PORT" (speaks first); by UDP it answers to whoever spoke
+// last. Fails where the address is none; whether an autopilot is there is start()'s business.
+// `clock` outlives the link.
+Result<std::unique_ptr<PilotLink>> make_pilot_link(const std::string& address, const Clock& clock);
 
 std::vector<SerialPortInfo> list_serial_ports();
 
