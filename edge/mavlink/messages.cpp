@@ -16,7 +16,7 @@ constexpr int kNoAutopilot = 8;         // MAV_AUTOPILOT_INVALID
 constexpr int kActive = 4;              // MAV_STATE
 constexpr int kProtocolVersion = 3;     // of both MAVLink 1 and 2
 constexpr int kSafetyArmed = 128;       // MAV_MODE_FLAG
-constexpr int kHeadingUnknown = 65535;
+constexpr int kWholeTurn = 36000;       // 0.01 degree; 65535 says that it is unknown
 
 // A little-endian whole number at an offset of the payload.
 template <typename T>
@@ -121,7 +121,7 @@ PilotPosition position_of(const Frame& frame, HostTime arrival) {
                                whole<std::int16_t>(frame, 20) * 1e-2,
                                whole<std::int16_t>(frame, 24) * -1e-2};
   const int heading = whole<std::uint16_t>(frame, 26);
-  if (heading != kHeadingUnknown && heading <= 36000) position.heading_deg = heading * 1e-2;
+  if (heading <= kWholeTurn) position.heading_deg = heading * 1e-2;
   return position;
 }
 
