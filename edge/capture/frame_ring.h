@@ -66,6 +66,15 @@ class FrameRing {
     return nearest;
   }
 
+  void forget() { wanted_.reset(); }  // the wish
+
+  // Whether `is_it` holds for a frame that is held.
+  template <typename Predicate>
+  bool holds_if(Predicate is_it) const {
+    return std::any_of(held_.begin(), held_.end(),
+                       [&](const auto& held) { return is_it(held.second); });
+  }
+
   // Lets go of all frames and the wish: the camera was stopped, or is another one now.
   void clear() {
     held_.clear();

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "edge/capture/aim.h"
+#include "edge/capture/capture_plan.h"
+#include "edge/capture/decisions.h"
+#include "edge/capture/height_steps.h"
+#include "edge/capture/inputs.h"
+#include "edge/capture/navigator.h"
+#include "edge/capture/release.h"
+#include "edge/capture/stillness.h"
+#include "edge/capture/take_off.h"
+
+namespace plumbline::capture {
+
+// Decides when a flight begins, when to take which photo, and when the flight is over. A function
+// of its options and inputs alone: no clock, no device, no thread. One run is one flight, from the
+// ground to the ground.
+class Decider {
+ public:
+  explicit Decider(const CaptureOptions& options);
+
+  // Appends what follows from `input` to `decisions`.
+  void take(const Input& input, std::vector<Decision>& decisions);
+
+  // When a Tick is wanted at the latest; max: never.
+  HostTime due() const;
+
+  // Whether a frame's pixels may still be asked for.
+  bool holds(std::uint64_t sequence) const;
+
+  Phase phase() const { return phase_; }
+  const HeightSteps& steps() const { return steps_; }
+  const Navigator& navigator() const { return navigator_; }
+  std::optional<double> ground_height_m() const { return take_off_.ground_height_m(); }
+
+ private:
+  bool by_pulse() const { return options_.release.release == Release::kPulse; }
+  void hear(HostTime now, const Happening& what, std::vector<Decision>& decisions);
+  void hear_fix(HostTime now, const FixHeard& heard);
+  void hear_frame(const FrameSeen& frame, std::vector<Decision>& decisions);
+  void resume(const Resumed& resumed);
+  void look_at_ground();
+  void look_at_phase(std::vector<Decision>& decisions);
+  void change_phase(Phase phase, std::vector<Decision>& decisions);
+  void work(std::vector<Decision>& decisions);
+  void test(std::vector<Decision>& decisions);
+  void re_aim();
+  std::optional<Aim> just_gone_by(HostTime earliest) const;
+  void pulse_if_due(std::vector<Decision>& decisions);
+  void close(const Exposure& exposure, std::vector<Decision>& decisions);
+  void miss(std::vector<Decision>& decisions);
+  std::optional<Place> place_at(HostTime time) const;
+  Marks marks_of(const std::optional<Place>& place) const;
+
+  CaptureOptions options_;
+  Navigator navigator_;
+  TakeOffWatch take_off_;
+  HeightSteps steps_;
+  StillnessWatch stillness_;
+  FrameRelease frames_;
+  PulseRelease pulses_;
+
+  HostTime now_;
+  Phase phase_ = Phase::kWaiting;
+  bool streaming_ = false;
+  bool jumped_ = false;
+  bool resumed_ = false;              // in the air
+  bool ground_is_of_before_ = false;  // of a run before, and may be of another place
+  std::optional<UtcTime> resumed_last_fix_;
+  AimState aim_state_;
+  std::optional<Aim> aim_;
+  int last_number_ = 0;
+  int tests_ = 0;
+  HostTime next_test_;
+  HostTime next_look_;
+};
+
+}  // namespace plumbline::capture

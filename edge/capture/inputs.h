@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "edge/base/exposure_timing.h"
+#include "edge/base/gnss_fix.h"
+#include "edge/base/time.h"
+
+namespace plumbline::capture {
+
+// What the deciding thread hears. Every decision follows from these and the options alone, so that
+// a recording of them gives the same decisions again.
+
+// The first input of every run.
+struct Started {
+  WallTime wall;  // only to give a day to times of day
+};
+
+// The program was stopped, and begins anew: in place of the take-off where the flight was under
+// way; else only the ground is known from before, for the drone may have taken off meanwhile.
+struct Resumed {
+  bool flying = true;
+  double ground_height_m = 0;  // ellipsoidal
+  std::optional<UtcTime> last_fix;
+  int photos = 0;                   // the highest number given out
+  std::vector<std::uint8_t> taken;  // one per entry of the plan's heights, in its order: 1 if taken
+};
+
+struct FixHeard {
+  GnssFix fix;
+  HostTime first_byte;
+  bool jumped = false;  // the receiver was said to have jumped here
+};
+struct PulsePerSecond {
+  HostTime edge;
+};
+
+struct FrameSeen {
+  std::uint64_t sequence = 0;
+  int interior_number = 0;
+  ExposureTiming timing;
+  int rows = 0;
+};
+struct CameraSeen {
+  bool streaming = false;
+};
+// Hot-shoe feedback: the shutter is open.
+struct ShutterOpened {
+  HostTime edge;
+};
+
+struct PilotSeen {
+  std::optional<bool> armed;
+};
+
+// The time that was asked for has come.
+struct Tick {};
+
+using Happening = std::variant<Started, Resumed, FixHeard, PulsePerSecond, FrameSeen, CameraSeen,
+                               ShutterOpened, PilotSeen, Tick>;
+
+struct Input {
+  HostTime now;  // when the deciding thread took it up; never goes back
+  Happening what;
+};
+
+}  // namespace plumbline::capture
