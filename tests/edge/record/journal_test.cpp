@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "edge/record/journal.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/flights/capture_flight.h"
+
+namespace plumbline::record {
+namespace {
+
+using std::chrono::milliseconds;
+
+std::string packed(const Entry& entry) {
+  std::string bytes;
+  pack(entry, bytes);
+  return bytes;
+}
+
+std::vector<Entry> small_flight() {
+  Stored stored{HostTime(milliseconds(31)), 1, "photos/0001.jpg", 4711, {}};
+  stored.sha256[3] = 0xAB;
+  return {Began{"plumblined 0.1", "[capture]\n", "boot", HostTime(milliseconds(1)), WallTime{}},
+          Bytes{HostTime(milliseconds(20)), std::string("$GPGGA\0,\r\n", 10)},
+          capture::Input{HostTime(milliseconds(30)), capture::Tick{}},
+          stored,
+          Message{HostTime(milliseconds(40)), Severity::kFault, "disk", "It is full."},
+          Ended{HostTime(milliseconds(50)), "landed"}};
+}
+
+std::string journal_of(const std::vector<Entry>& entries) {
+  std::string bytes = journal_head();
+  std::uint64_t sequence = 0;
+  for (const Entry& entry : entries) append_entry(entry, sequence++, bytes);
+  return bytes;
+}
+
+struct ReadBack {
+  std::vector<Entry> entries;
+  JournalSummary summary;
+};
+
+ReadBack read_back(const std::string& bytes) {
+  auto reader = JournalReader::over(bytes);
+  ReadBack back;
+  if (!reader) return back;
+  while (auto entry = reader->next()) back.entries.push_back(std::move(*entry));
+  back.summary = reader->summary();
+  return back;
+}
+
+// Entries have no comparison of their own: their bytes are all of them.
+bool holds_in_order(const std::vector<Entry>& some, const std::vector<Entry>& all) {
+  std::size_t at = 0;
+  for (const Entry& entry : some) {
+    while (at < all.size() && packed(all[at]) != packed(entry)) ++at;
+    if (at++ == all.size()) return false;
+  }
+  return true;
+}
+
+TEST(Journal, GivesBackEveryEntryOfAFlight) {
+  flights::CaptureFlight flight;
+  flight.path.top_m = 42;
+  const auto log = flights::fly(flight);
+  std::vector<Entry> entries(log.inputs.begin(), log.inputs.end());
+  entries.insert(entries.end(), log.decisions.begin(), log.decisions.end());
+  const ReadBack back = read_back(journal_of(entries));
+  ASSERT_EQ(back.entries.size(), entries.size());
+  EXPECT_TRUE(holds_in_order(back.entries, entries));
+}
+
+TEST(Journal, IsCompleteWhenItEndsWithTheEnd) {
+  const ReadBack back = read_back(journal_of(small_flight()));
+  EXPECT_EQ(back.summary.state, JournalState::kComplete);
+  EXPECT_EQ(back.entries.size(), small_flight().size());
+}
+
+TEST(Journal, IsTruncatedWhereverItIsCut) {
+  const std::string whole = journal_of(small_flight());
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    const ReadBack back = read_back(whole.substr(0, size));
+    EXPECT_EQ(back.summary.state, JournalState::kTruncated) << size;
+    EXPECT_LE(back.summary.whole_bytes, size);
+    EXPECT_TRUE(holds_in_order(back.entries, small_flight()));
+  }
+}
+
+TEST(Journal, LosesOneEntryByOneFlippedBit) {
+  const std::string whole = journal_of(small_flight());
+  for (std::size_t bit = 16 * 8; bit < whole.size() * 8; ++bit) {
+    std::string flipped = whole;
+    flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << (bit % 8)));
+    const ReadBack back = read_back(flipped);
+    EXPECT_EQ(back.entries.size(), small_flight().size() - 1) << bit;
+    EXPECT_TRUE(holds_in_order(back.entries, small_flight())) << bit;
+    EXPECT_NE(back.summary.state, JournalState::kComplete) << bit;
+  }
+}
+
+TEST(Journal, IsDamagedWhereEntriesAreMissingWithin) {
+  std::vector<Entry> entries = small_flight();
+  std::string bytes = journal_head();
+  append_entry(entries[0], 0, bytes);
+  append_entry(entries[5], 2, bytes);
+  const ReadBack back = read_back(bytes);
+  EXPECT_EQ(back.summary.state, JournalState::kDamaged);
+  EXPECT_EQ(back.summary.lost_entries, 1u);
+}
+
+TEST(Journal, SaysWhatIsNone) {
+  EXPECT_FALSE(JournalReader::over("JFIF"));
+  std::string later = journal_head();
+  EXPECT_TRUE(JournalReader::over(later));
+}
+
+TEST(Journal, StepsOverKindsOfALaterVersion) {
+  EXPECT_FALSE(unpack(999, ""));
+  EXPECT_FALSE(unpack(40, "short"));
+}
+
+}  // namespace
+}  // namespace plumbline::record
