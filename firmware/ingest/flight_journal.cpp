@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "firmware/ingest/flight_journal.h"
+
+#include <charconv>
+#include <map>
+#include <utility>
+
+#include "edge/capture/navigator.h"
+#include "edge/gnss/leap_seconds.h"
+#include "edge/timing/antenna_predictor.h"
+#include "firmware/ingest/text_file.h"
+
+namespace plumbline::ingest {
+namespace {
+
+constexpr std::size_t kLargestJournal = std::size_t{1} << 31;
+
+// Plays what was heard up to some time after each exposure: the place is then known from both
+// sides. A new run begins with each start of the program.
+class Playback {
+ public:
+  explicit Playback(const capture::CaptureOptions& options) : options_(options) { restart(); }
+
+  void take(const record::Entry& entry) {
+    if (std::holds_alternative<record::Began>(entry)) {
+      settle(HostTime::max());
+      restart();
+    } else if (const auto* input = std::get_if<capture::Input>(&entry)) {
+      hear(*input);
+    } else if (const auto* decision = std::get_if<capture::Decision>(&entry)) {
+      if (const auto* taken = std::get_if<capture::PhotoTaken>(&decision->what)) {
+        waiting_.push_back(*taken);
+      }
+    }
+  }
+
+  std::map<int, AntennaAtPhoto> finish() {
+    settle(HostTime::max());
+    return std::move(places_);
+  }
+  double latency_sigma_s() const { return latency_sigma_s_; }
+
+ private:
+  // So long after an exposure the epochs on both sides have arrived.
+  static constexpr std::chrono::seconds kLater{2};
+
+  void restart() {
+    capture::NavigatorOptions navigator;
+    navigator.clock.latency = options_.receiver_latency;
+    navigator_.emplace(navigator);
+  }
+
+  void hear(const capture::Input& input) {
+    settle(input.now);
+    if (const auto* started = std::get_if<capture::Started>(&input.what)) {
+      navigator_->set_wall(started->wall, input.now);
+    } else if (const auto* heard = std::get_if<capture::FixHeard>(&input.what)) {
+      navigator_->add(heard->fix, heard->first_byte);
+    } else if (const auto* pulse = std::get_if<capture::PulsePerSecond>(&input.what)) {
+      navigator_->add_pulse(pulse->edge);
+    }
+  }
+
+  void settle(HostTime now) {
+    std::erase_if(waiting_, [&](const capture::PhotoTaken& taken) {
+      if (now != HostTime::max() && now < taken.exposed + kLater) return false;
+      place(taken);
+      return true;
+    });
+  }
+
+  void place(const capture::PhotoTaken& taken) {
+    const auto motion = navigator_->at(taken.exposed);
+    const auto frame = navigator_->frame();
+    const auto clock = navigator_->clock();
+    if (!motion || !frame || !clock || motion->reckoned) return;
+    const auto instant = clock->gps_of(taken.exposed);
+    const Eigen::Vector3d blur_m =
+        motion->velocity_m_s * std::chrono::duration<double>(taken.exposed_sigma).count();
+    AntennaAtPhoto at;
+    at.position = frame->geodetic_of(motion->in_enu_m);
+    at.covariance_enu_m2 = motion->covariance_m2 + blur_m * blur_m.transpose();
+    at.velocity_enu_m_s = motion->velocity_m_s;
+    at.quality = motion->quality;
+    at.utc = gnss::utc_of(instant.time);
+    latency_sigma_s_ = std::chrono::duration<double>(instant.sigma_latency).count();
+    places_.insert_or_assign(taken.number, at);
+  }
+
+  capture::CaptureOptions options_;
+  std::optional<capture::Navigator> navigator_;
+  std::vector<capture::PhotoTaken> waiting_;
+  std::map<int, AntennaAtPhoto> places_;
+  double latency_sigma_s_ = 0;
+};
+
+}  // namespace
+
+std::optional<std::filesystem::path> journal_of(const std::filesystem::path& flight) {
+  std::error_code error;
+  const std::filesystem::path path = flight / "flight.journal";
+  if (!std::filesystem::is_regular_file(path, error)) return std::nullopt;
+  return path;
+}
+
+Result<FlightJournal> read_flight_journal(const std::filesystem::path& path) {
+  const auto bytes = read_bytes(path, kLargestJournal);
+  if (!bytes) return bytes.error();
+  auto reader =
+      record::JournalReader::over({reinterpret_cast<const char*>(bytes->data()), bytes->size()});
+  if (!reader) return Error{path.string() + ": " + reader.error().sentence};
+  FlightJournal journal;
+  while (auto entry = reader->next()) journal.entries.push_back(std::move(*entry));
+  journal.summary = reader->summary();
+  return journal;
+}
+
+AntennaPositions antenna_of_flight(const FlightJournal& journal,
+                                   const std::vector<std::string>& photos,
+                                   const capture::CaptureOptions& options) {
+  Playback playback(options);
+  for (const record::Entry& entry : journal.entries) playback.take(entry);
+  const auto places = playback.finish();
+  AntennaPositions antenna;
+  antenna.time_sigma_s = playback.latency_sigma_s();
+  for (const std::string& photo : photos) {
+    int number = 0;
+    std::from_chars(photo.data(), photo.data() + photo.size(), number);
+    const auto place = places.find(number);
+    if (place == places.end()) {
+      antenna.photos.emplace_back();
+      antenna.warnings.push_back("Photo " + photo +
+                                 " has no position: the receiver gave none around its exposure.");
+    } else {
+      antenna.photos.emplace_back(place->second);
+    }
+  }
+  return antenna;
+}
+
+}  // namespace plumbline::ingest

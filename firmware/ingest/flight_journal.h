@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "edge/base/result.h"
+#include "edge/capture/capture_plan.h"
+#include "edge/record/journal.h"
+#include "firmware/ingest/gnss_log.h"
+
+namespace plumbline::ingest {
+
+struct FlightJournal {
+  std::vector<record::Entry> entries;
+  record::JournalSummary summary;
+};
+
+// "FLIGHT/flight.journal"; empty where `flight` is no folder that holds one.
+std::optional<std::filesystem::path> journal_of(const std::filesystem::path& flight);
+
+// Fails where the file cannot be read or is no journal; whatever damage there is, is stepped over.
+Result<FlightJournal> read_flight_journal(const std::filesystem::path& path);
+
+// Where the antenna was at the exposures of photos by their file names ("0001.jpg"), from all that
+// the receiver said in the flight, before and after them. The receiver's latency (a pulse per
+// second does without) is in time_sigma_s, and in the covariances as if each photo had its own.
+AntennaPositions antenna_of_flight(const FlightJournal& journal,
+                                   const std::vector<std::string>& photos,
+                                   const capture::CaptureOptions& options);
+
+}  // namespace plumbline::ingest
