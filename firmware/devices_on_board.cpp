@@ -8,8 +8,11 @@
 #include "drivers/camera/camera_module.h"
 #include "drivers/camera/v4l2_camera.h"
 #include "drivers/gnss/stream_receiver.h"
+#include "drivers/gpio/gpio_trigger_line.h"
 #include "drivers/mavlink/stream_pilot_link.h"
 #include "drivers/posix/file_stream.h"
+#include "drivers/posix/posix_storage.h"
+#include "drivers/posix/pps_line.h"
 #include "drivers/posix/serial_port.h"
 #include "drivers/posix/serial_port_list.h"
 #include "drivers/posix/system_clock.h"
@@ -129,6 +132,32 @@ ReceiverResult make_receiver(const std::string& address, const Clock& clock) {
   }
   if (!address.empty()) return receiver_on_port(address, clock);
   return Error{"The receiver has no address: write a port, tcp://HOST:PORT or a log."};
+}
+
+Result<std::unique_ptr<Storage>> open_folder(const std::string& folder) {
+  return posix::open_storage(folder);
+}
+
+std::optional<std::string> folder_warning(const std::string& folder) {
+  return posix::file_system_warning(folder);
+}
+
+Result<std::unique_ptr<TriggerLine>> make_shutter_wires(const ShutterWires& wires,
+                                                        const Clock& clock) {
+  gpio::TriggerLineOptions options;
+  options.pulse_width = wires.pulse_width;
+  if (!wires.pulse_line.empty()) options.out = {wires.pulse_line, wires.pulse_active_low};
+  if (!wires.feedback_line.empty()) options.in = {wires.feedback_line, wires.feedback_active_low};
+  return gpio::make_trigger_line(options, clock);
+}
+
+Result<std::unique_ptr<TriggerLine>> make_pulse_per_second(const std::string& address,
+                                                           const Clock& clock) {
+  constexpr std::string_view kGpio = "gpio:";
+  if (!address.starts_with(kGpio)) return posix::open_pps_line(address, clock);
+  gpio::TriggerLineOptions options;
+  options.in = {address.substr(kGpio.size()), false};
+  return gpio::make_trigger_line(options, clock);
 }
 
 PilotResult make_pilot_link(const std::string& address, const Clock& clock) {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,8 @@
 #include "drivers/clock.h"
 #include "drivers/gnss_receiver.h"
 #include "drivers/pilot_link.h"
+#include "drivers/storage.h"
+#include "drivers/trigger_line.h"
 #include "edge/base/result.h"
 
 namespace plumbline {
@@ -30,6 +34,26 @@ Result<std::unique_ptr<GnssReceiver>> make_receiver(const std::string& address, 
 Result<std::unique_ptr<PilotLink>> make_pilot_link(const std::string& address, const Clock& clock);
 
 std::vector<SerialPortInfo> list_serial_ports();
+
+// A folder of the file system; fails where it is not there. And what is to be said of the kind of
+// file system it lies on, empty where nothing is.
+Result<std::unique_ptr<Storage>> open_folder(const std::string& folder);
+std::optional<std::string> folder_warning(const std::string& folder);
+
+// Wires to and from a camera's shutter, on GPIO lines; an empty name: without that one.
+struct ShutterWires {
+  std::string pulse_line;
+  bool pulse_active_low = false;
+  std::chrono::microseconds pulse_width = std::chrono::milliseconds(20);
+  std::string feedback_line;
+  bool feedback_active_low = false;
+};
+Result<std::unique_ptr<TriggerLine>> make_shutter_wires(const ShutterWires& wires,
+                                                        const Clock& clock);
+
+// "gpio:LINE" or "/dev/pps0": a receiver's pulse per second, as edges of an input line.
+Result<std::unique_ptr<TriggerLine>> make_pulse_per_second(const std::string& address,
+                                                           const Clock& clock);
 
 // A camera by its id: a video device ("/dev/video0" or a link to one) or "libcamera:" and the id
 // that libcamera gives it. Fails where libcamera is asked for and cannot be had; whether the camera

@@ -9,12 +9,16 @@
 #include <string>
 
 #include "firmware/commands/camera_command.h"
+#include "firmware/commands/check_command.h"
+#include "firmware/commands/config_command.h"
 #include "firmware/commands/gnss_command.h"
 #include "firmware/commands/measure_command.h"
 #include "firmware/commands/orient_command.h"
 #include "firmware/commands/plan_command.h"
+#include "firmware/commands/replay_command.h"
 #include "firmware/commands/run_report.h"
 #include "firmware/commands/sim_command.h"
+#include "firmware/commands/status_command.h"
 
 namespace plumbline::commands {
 namespace {
@@ -37,7 +41,9 @@ int wrong_usage(const CLI::App& app, const CLI::ParseError& wrong, int argc, cha
   if (command.empty() && argc > 1 && argv[1][0] != '-') {
     what = "There is no command '" + std::string(argv[1]) + "'";
   } else if (command.empty() && argc < 2) {
-    what = "A command is required: measure, orient, plan, sim, gnss or camera";
+    what =
+        "A command is required: measure, orient, plan, sim, gnss, camera, replay, check, status "
+        "or config";
   }
   std::replace(what.begin(), what.end(), '\n', ' ');
   std::cerr << "plumbline: " << what << "; see plumbline " << command << "--help.\n";
@@ -58,6 +64,10 @@ int parse_and_run(int argc, char** argv) {
   add_sim(app, status);
   add_gnss(app, status);
   add_camera(app, status);
+  add_replay(app, status);
+  add_check(app, status);
+  add_status(app, status);
+  add_config(app, status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

@@ -7,7 +7,9 @@
 #include "firmware/commands/antenna_stations.h"
 #include "firmware/commands/geo_inputs.h"
 #include "firmware/commands/lever_arm.h"
+#include "firmware/config/config_toml.h"
 #include "firmware/ingest/camera_toml.h"
+#include "firmware/ingest/flight_journal.h"
 #include "firmware/ingest/gnss_log.h"
 #include "firmware/ingest/named_points.h"
 #include "firmware/ingest/photo_folder.h"
@@ -20,6 +22,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// As the program was configured that flew.
+capture::CaptureOptions options_of_flight(const ingest::FlightJournal& journal) {
+  for (const auto& entry : journal.entries) {
+    const auto* began = std::get_if<record::Began>(&entry);
+    if (began != nullptr) return config::parse_config(began->configuration, "").config.capture;
+  }
+  return {};
+}
+
 class InputReader {
  public:
   InputReader(const MeasureArguments& arguments, const Progress& progress)
@@ -29,8 +40,9 @@ class InputReader {
     using Step = Status (InputReader::*)();
     for (const Step step :
          {&InputReader::read_geoid_file, &InputReader::read_photo_files, &InputReader::read_camera,
-          &InputReader::read_stations, &InputReader::read_gnss, &InputReader::read_lever_arm,
-          &InputReader::read_picks_and_lengths, &InputReader::read_known}) {
+          &InputReader::read_stations, &InputReader::read_flight, &InputReader::read_gnss,
+          &InputReader::read_lever_arm, &InputReader::read_picks_and_lengths,
+          &InputReader::read_known}) {
       if (Status done = (this->*step)(); !done) return done.error();
     }
     return std::move(inputs_);
@@ -107,6 +119,23 @@ class InputReader {
     inputs_.frame = stations->frame;
     if (arguments_.gnss.empty()) warn(stations->warnings);
     return Done{};
+  }
+
+  // A flight of the daemon says itself where its photos were taken.
+  Status read_flight() {
+    if (!arguments_.gnss.empty() || arguments_.photos.size() != 1) return Done{};
+    const auto path = ingest::journal_of(arguments_.photos.front());
+    if (!path) return Done{};
+    const auto journal = ingest::read_flight_journal(*path);
+    if (!journal) return journal.error();
+    std::vector<std::string> names;
+    for (const auto& photo : photos_.photos) names.push_back(photo.name);
+    const auto antenna = antenna_of_flight(*journal, names, options_of_flight(*journal));
+    warn(antenna.warnings);
+    if (Status placed = place_antennas(antenna, inputs_.frame, inputs_.survey); !placed) {
+      return placed;
+    }
+    return remember(*path);
   }
 
   // A log given by hand stands for the photos' own positions, all of them.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <link.h>
 
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,19 @@ TEST(DriverLinks, BringNoLibraryOfTheMeasuringSide) {
 
 TEST(DriverLinks, LeaveLibcameraToItsModule) {
   EXPECT_THAT(loaded_libraries(), Each(Not(HasSubstr("libcamera"))));
+}
+
+// The list of the daemon itself, as the dynamic linker reads it.
+TEST(DaemonLinks, HaveNoLibraryOfTheMeasuringSide) {
+  const std::string command = std::string("ldd ") + PLUMBLINE_DAEMON;
+  std::FILE* list = ::popen(command.c_str(), "r");
+  ASSERT_NE(list, nullptr);
+  std::string text;
+  for (int c = std::fgetc(list); c != EOF; c = std::fgetc(list)) text += static_cast<char>(c);
+  ASSERT_EQ(::pclose(list), 0);
+  EXPECT_THAT(text, HasSubstr("libgpiod"));
+  EXPECT_THAT(text, Not(kFromTheMeasuringSide));
+  EXPECT_THAT(text, Not(HasSubstr("libcamera")));
 }
 
 #ifdef PLUMBLINE_CAMERA_MODULE

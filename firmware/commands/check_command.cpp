@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT
+#include "firmware/commands/check_command.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "firmware/commands/journal_text.h"
+#include "firmware/commands/run_report.h"
+#include "firmware/ingest/flight_journal.h"
+#include "firmware/ingest/sha256.h"
+
+namespace plumbline::commands {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CheckArguments {
+  fs::path flight;
+  bool dump = false;
+  bool json = false;
+};
+
+// What a flight's folder holds, beside what its journal says of it.
+struct Findings {
+  record::JournalSummary journal;
+  std::vector<std::string> broken_photos;   // sentences
+  std::vector<std::string> unnamed_photos;  // on the disk, not in the journal
+  int stored = 0, taken = 0, missed = 0, fixes = 0, faults = 0, starts = 0;
+  double duration_s = 0;
+  bool flown = false;
+  std::vector<std::string> not_stored;  // photos taken that never reached the disk
+};
+
+std::string hex_of(const std::array<std::uint8_t, 32>& hash) {
+  std::string text;
+  for (const std::uint8_t byte : hash) {
+    char hex[4];
+    std::snprintf(hex, sizeof hex, "%02x", static_cast<unsigned>(byte));
+    text += hex;
+  }
+  return text;
+}
+
+std::string trouble_with(const fs::path& flight, const record::Stored& stored) {
+  std::error_code error;
+  const fs::path path = flight / stored.name;
+  if (!fs::is_regular_file(path, error)) return stored.name + " is missing.";
+  if (fs::file_size(path, error) != stored.length) {
+    return stored.name + " has " + std::to_string(fs::file_size(path, error)) + " bytes, not the " +
+           std::to_string(stored.length) + " that were stored.";
+  }
+  const auto hash = ingest::sha256_of_file(path);
+  if (!hash) return hash.error().sentence;
+  return *hash == hex_of(stored.sha256) ? "" : stored.name + " is not what was stored.";
+}
+
+class Count {
+ public:
+  Count(const fs::path& flight, Findings& findings) : flight_(flight), findings_(findings) {}
+
+  void operator()(const record::Began&) { ++findings_.starts; }
+  void operator()(const record::Bytes&) {}
+  void operator()(const PilotAttitude&) {}
+  void operator()(const PilotPosition&) {}
+  void operator()(const record::Ended&) {}
+  void operator()(const record::Message& message) {
+    if (message.severity == record::Severity::kFault) ++findings_.faults;
+  }
+  void operator()(const record::Stored& stored) {
+    ++findings_.stored;
+    stored_.insert(stored.number);
+    const std::string trouble = trouble_with(flight_, stored);
+    if (!trouble.empty()) findings_.broken_photos.push_back(trouble);
+  }
+  void operator()(const capture::Input& input) {
+    if (std::holds_alternative<capture::FixHeard>(input.what)) ++findings_.fixes;
+    if (!first_) first_ = input.now;
+    findings_.duration_s = std::chrono::duration<double>(input.now - *first_).count();
+  }
+  void operator()(const capture::Decision& decision) {
+    if (const auto* taken = std::get_if<capture::PhotoTaken>(&decision.what)) {
+      ++findings_.taken;
+      if (taken->frame) taken_.insert(taken->number);
+    }
+    if (std::holds_alternative<capture::PhotoMissed>(decision.what)) ++findings_.missed;
+    const auto* changed = std::get_if<capture::PhaseChanged>(&decision.what);
+    if (changed != nullptr && changed->phase == capture::Phase::kFlying) findings_.flown = true;
+  }
+
+  void finish() {
+    for (const int number : taken_) {
+      if (!stored_.contains(number)) findings_.not_stored.push_back(std::to_string(number));
+    }
+    std::error_code error;
+    for (const auto& file : fs::directory_iterator(flight_ / "photos", error)) {
+      int number = 0;
+      std::sscanf(file.path().filename().c_str(), "%d", &number);
+      if (!stored_.contains(number)) {
+        findings_.unnamed_photos.push_back("photos/" + file.path().filename().string());
+      }
+    }
+    std::sort(findings_.unnamed_photos.begin(), findings_.unnamed_photos.end());
+  }
+
+ private:
+  const fs::path& flight_;
+  Findings& findings_;
+  std::set<int> stored_;
+  std::set<int> taken_;
+  std::optional<HostTime> first_;
+};
+
+std::string state_of(const Findings& findings) {
+  const auto state = findings.journal.state;
+  if (state == record::JournalState::kDamaged || !findings.broken_photos.empty()) return "damaged";
+  return state == record::JournalState::kComplete ? "complete" : "truncated";
+}
+
+std::string sentence_of(const Findings& findings) {
+  const std::string state = state_of(findings);
+  if (state == "complete") return "The recording is complete.";
+  if (state == "truncated") {
+    return "The recording is truncated: it stops without an end, as when the power goes; " +
+           std::to_string(findings.journal.tail_bytes) +
+           " bytes of an unfinished entry follow. All before that is good.";
+  }
+  return "The recording is damaged: " + std::to_string(findings.journal.skipped_bytes) +
+         " bytes of the journal are not what was written, " +
+         std::to_string(findings.journal.lost_entries) + " entries are lost, " +
+         std::to_string(findings.broken_photos.size()) + " photos are not whole.";
+}
+
+nlohmann::ordered_json json_of(const Findings& f) {
+  return {{"state", state_of(f)},
+          {"entries", f.journal.entries},
+          {"whole_bytes", f.journal.whole_bytes},
+          {"skipped_bytes", f.journal.skipped_bytes},
+          {"tail_bytes", f.journal.tail_bytes},
+          {"lost_entries", f.journal.lost_entries},
+          {"starts", f.starts},
+          {"duration_s", f.duration_s},
+          {"flown", f.flown},
+          {"fixes", f.fixes},
+          {"photos_taken", f.taken},
+          {"photos_stored", f.stored},
+          {"photos_missed", f.missed},
+          {"faults", f.faults},
+          {"not_stored", f.not_stored},
+          {"broken_photos", f.broken_photos},
+          {"unnamed_photos", f.unnamed_photos}};
+}
+
+void print(const Findings& f) {
+  std::printf("%s\n", sentence_of(f).c_str());
+  std::printf("%llu entries, %.1f s, %d fixes, %d start%s of the program, %s\n",
+              static_cast<unsigned long long>(f.journal.entries), f.duration_s, f.fixes, f.starts,
+              f.starts == 1 ? "" : "s", f.flown ? "flown" : "not flown");
+  std::printf("%d photos taken, %d stored, %d missed, %d faults\n", f.taken, f.stored, f.missed,
+              f.faults);
+  for (const std::string& sentence : f.broken_photos) std::printf("%s\n", sentence.c_str());
+  for (const std::string& number : f.not_stored) {
+    std::printf("Photo %s was taken, and never reached the disk.\n", number.c_str());
+  }
+  for (const std::string& name : f.unnamed_photos) {
+    std::printf("%s is not named in the journal.\n", name.c_str());
+  }
+}
+
+int run_check(const CheckArguments& arguments) {
+  const auto path = ingest::journal_of(arguments.flight);
+  if (!path) {
+    return fail(
+        {arguments.flight.string() + " holds no flight.journal: give the folder of one flight."});
+  }
+  const auto journal = ingest::read_flight_journal(*path);
+  if (!journal) return fail(journal.error());
+  if (arguments.dump) {
+    for (const auto& entry : journal->entries) std::printf("%s\n", text_of(entry).c_str());
+  }
+  Findings findings;
+  findings.journal = journal->summary;
+  Count count(arguments.flight, findings);
+  for (const auto& entry : journal->entries) std::visit(count, entry);
+  count.finish();
+  if (arguments.json) std::printf("%s\n", json_of(findings).dump(2).c_str());
+  if (!arguments.json && !arguments.dump) print(findings);
+  if (arguments.dump) std::fprintf(stderr, "%s\n", sentence_of(findings).c_str());
+  return state_of(findings) == "complete" ? kGood : kWorkFailed;
+}
+
+}  // namespace
+
+void add_check(CLI::App& app, int& status) {
+  auto arguments = std::make_shared<CheckArguments>();
+  CLI::App* command = app.add_subcommand(
+      "check", "Is the recording of a flight complete, truncated or damaged; what is in it.");
+  command->add_option("flight", arguments->flight, "the flight's folder")->required();
+  command->add_flag("--dump", arguments->dump, "every entry of the journal, a line each");
+  command->add_flag("--json", arguments->json, "one object");
+  command->footer(
+      "Ends with status 0 only where the recording is complete and every photo whole.\n"
+      "Example: plumbline check /var/lib/plumbline/flights/0007");
+  command->callback([arguments, &status] { status = run_check(*arguments); });
+}
+
+}  // namespace plumbline::commands

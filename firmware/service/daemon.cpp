@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+#include "firmware/service/daemon.h"
+
+#include <fstream>
+#include <utility>
+
+#include "firmware/ingest/camera_toml.h"
+
+namespace plumbline::service {
+namespace {
+
+// Tells this boot of the machine from others: host times compare within one.
+std::string boot_id() {
+  std::ifstream file("/proc/sys/kernel/random/boot_id");
+  std::string id;
+  std::getline(file, id);
+  return id;
+}
+
+// Without a calibration: a usual lens, known to a twentieth.
+geometry::Camera usual_camera(const CameraOptions& options) {
+  geometry::Camera camera;
+  camera.width_px = options.width_px.value_or(4056);
+  camera.height_px = options.height_px.value_or(3040);
+  auto& f = camera.interior[geometry::kFocalLength];
+  f = 0.8 * camera.width_px;
+  return camera;
+}
+
+Result<geometry::Camera> camera_of(const config::Config& config) {
+  if (config.camera.calibration.empty()) return usual_camera(config.camera.options);
+  auto file = ingest::read_camera_toml(config.camera.calibration);
+  if (!file) return file.error();
+  return file->camera;
+}
+
+}  // namespace
+
+flight::SessionOptions session_options(const config::Config& config, const std::string& text) {
+  flight::SessionOptions options;
+  options.capture = config.capture;
+  options.camera = config.camera.options;
+  options.jpeg_quality = config.camera.jpeg_quality;
+  options.configuration = text;
+  options.boot = boot_id();
+  return options;
+}
+
+Daemon::Daemon(const config::Config& config, SingleInstance instance)
+    : config_(config), instance_(std::move(instance)) {}
+
+Daemon::~Daemon() {
+  session_.reset();  // its events reach the others
+}
+
+Result<std::unique_ptr<Daemon>> Daemon::start(const config::Config& config, const std::string& text,
+                                              flight::Devices devices) {
+  auto instance = SingleInstance::in(config.recording.folder);
+  if (!instance) return instance.error();
+  const auto camera = camera_of(config);
+  if (!camera) return camera.error();
+  std::unique_ptr<Daemon> daemon(new Daemon(config, std::move(*instance)));
+  auto server = StatusServer::start(daemon->board_, config.status.socket, config.status.file);
+  if (!server) return server.error();
+  daemon->server_ = std::move(*server);
+  Daemon* const self = daemon.get();
+  if (config.advice.enabled) {
+    plan::Options options;
+    options.camera = *camera;
+    options.goal_m = config.advice.goal_m;
+    daemon->adviser_ =
+        std::make_unique<Adviser>(options, [self, pilot = devices.pilot](const Advice& advice) {
+          self->board_.advised(advice.sentence);
+          if (pilot != nullptr) pilot->say(PilotSeverity::kInfo, advice.short_text);
+        });
+  }
+  if (config.measure.enabled) {
+    MeasurerOptions options;
+    options.flights = config.recording.folder;
+    options.memory_mb = config.measure.memory_mb;
+    options.longest = config.measure.longest;
+    if (config.measure.command == "request") {
+      options.request_file = config.recording.folder + "/measure.request";
+    } else {
+      options.program = config.measure.command;
+    }
+    const auto show = [self](const std::string& sentence) { self->board_.measured(sentence); };
+    daemon->measurer_ = std::make_unique<Measurer>(options, Measurer::Events{show, show});
+  }
+  daemon->session_ =
+      std::make_unique<flight::Session>(session_options(config, text), devices, daemon->events());
+  if (const Status started = daemon->session_->start(); !started) return started.error();
+  daemon->watch_space(devices.storage);
+  return daemon;
+}
+
+flight::SessionEvents Daemon::events() {
+  flight::SessionEvents events;
+  events.heard = [this](const capture::Input& input) { board_.heard(input); };
+  events.decided = [this](const capture::Decision& decision) {
+    board_.decided(decision);
+    if (adviser_) adviser_->decided(decision);
+  };
+  events.said = [this](const record::Message& message) { board_.said(message); };
+  events.stored = [this](int number, const std::string& folder) {
+    board_.stored(number, folder);
+    if (measurer_) measurer_->stored(folder);
+  };
+  events.ended = [this](const std::string& folder) {
+    board_.ended(folder);
+    if (measurer_) measurer_->ended(folder);
+  };
+  return events;
+}
+
+// In photos of a size that a JPEG of such a frame may have: 3 bits a pixel.
+void Daemon::watch_space(Storage& storage) {
+  const auto free = storage.free_bytes();
+  if (!free) return;
+  const double pixels = static_cast<double>(config_.camera.options.width_px.value_or(4056)) *
+                        config_.camera.options.height_px.value_or(3040);
+  const double kept = 1e6 * config_.recording.keep_free_mb;
+  const double photos = (static_cast<double>(*free) - kept) / (pixels * 3 / 8);
+  board_.free_photos(static_cast<std::int64_t>(std::max(0.0, photos)));
+}
+
+void Daemon::run() {
+  session_->run(HostTime::max());
+  session_->close();
+}
+
+}  // namespace plumbline::service

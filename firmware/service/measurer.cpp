@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "firmware/service/measurer.h"
+
+#include <fcntl.h>
+#include <sched.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <utility>
+
+namespace plumbline::service {
+namespace {
+
+using namespace std::chrono_literals;
+
+std::string program_path(const std::string& wanted) {
+  if (!wanted.empty()) return wanted;
+  std::error_code error;
+  const auto self = std::filesystem::read_symlink("/proc/self/exe", error);
+  const auto beside = self.parent_path() / "plumbline";
+  return std::filesystem::exists(beside, error) ? beside.string() : "plumbline";
+}
+
+// ioprio_set(2); the kernel's header of these does not compile as C++.
+constexpr int kIoprioWhoProcess = 1;
+constexpr int kIoprioClassIdle = 3 << 13;
+
+// In the child, before it becomes the measuring program: nothing here allocates.
+void become_humble(int memory_mb) {
+  ::setpriority(PRIO_PROCESS, 0, 19);
+  sched_param none{};
+  ::sched_setscheduler(0, SCHED_IDLE, &none);
+  ::syscall(SYS_ioprio_set, kIoprioWhoProcess, 0, kIoprioClassIdle);
+  const rlimit memory{static_cast<rlim_t>(memory_mb) << 20, static_cast<rlim_t>(memory_mb) << 20};
+  ::setrlimit(RLIMIT_AS, &memory);
+  // The first to go where memory ends.
+  const int score = ::open("/proc/self/oom_score_adj", O_WRONLY | O_CLOEXEC);
+  if (score >= 0) {
+    (void)!::write(score, "1000", 4);
+    ::close(score);
+  }
+  sigset_t none_blocked;
+  sigemptyset(&none_blocked);
+  ::sigprocmask(SIG_SETMASK, &none_blocked, nullptr);
+}
+
+}  // namespace
+
+Measurer::Measurer(const MeasurerOptions& options, Events events)
+    : options_(options), events_(std::move(events)), thread_([this] { run(); }) {}
+
+Measurer::~Measurer() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+  }
+  thread_.join();
+}
+
+void Measurer::stored(const std::string& flight) {
+  const std::lock_guard lock(mutex_);
+  if (flight != wish_.flight) wish_ = {flight, 0, false};
+  ++wish_.photos;
+}
+
+void Measurer::ended(const std::string& flight) {
+  const std::lock_guard lock(mutex_);
+  if (flight == wish_.flight) wish_.landed = true;
+}
+
+void Measurer::run() {
+  for (;;) {
+    Wish wish;
+    bool again = false;
+    {
+      const std::lock_guard lock(mutex_);
+      if (stopping_) return;
+      wish = wish_;
+      again = failed_ && wish.landed;
+    }
+    const bool news = wish.photos > measured_photos_ || wish.flight != measured_flight_;
+    if (wish.photos >= options_.first_at && (news || again)) {
+      measure(wish);
+    } else {
+      std::this_thread::sleep_for(100ms);
+    }
+  }
+}
+
+void Measurer::measure(const Wish& wish) {
+  const bool was_last_try = wish.landed;
+  measured_photos_ = wish.photos;
+  measured_flight_ = wish.flight;
+  const std::string folder = options_.flights + "/" + wish.flight;
+  if (!options_.request_file.empty()) {
+    if (!request(folder)) events_.failed("Cannot write " + options_.request_file + ".");
+    return;
+  }
+  const pid_t process = spawn(folder);
+  const int status = process > 0 ? wait_for(process) : -1;
+  const bool good = status >= 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  {
+    const std::lock_guard lock(mutex_);
+    if (stopping_) return;
+    failed_ = !good && !was_last_try;
+  }
+  if (good) {
+    events_.measured("Measured from " + std::to_string(wish.photos) + " photos: " + folder +
+                     "/result/report.html.");
+  } else if (status >= 0 && WIFSIGNALED(status)) {
+    events_.failed("The measuring process was ended by signal " + std::to_string(WTERMSIG(status)) +
+                   "; the photos are kept.");
+  } else {
+    events_.failed("The measuring process failed; the photos are kept, and " + folder +
+                   "/measure.log says why.");
+  }
+}
+
+bool Measurer::request(const std::string& flight) const {
+  std::ofstream file(options_.request_file, std::ios::trunc);
+  file << flight << '\n';
+  file.close();
+  return file.good();
+}
+
+pid_t Measurer::spawn(const std::string& flight) const {
+  const std::string program = program_path(options_.program);
+  const std::string out = flight + "/result";
+  const std::string log = flight + "/measure.log";
+  const char* const arguments[] = {program.c_str(), "measure",   flight.c_str(),
+                                   "--out",         out.c_str(), nullptr};
+  const pid_t process = ::fork();
+  if (process != 0) return process;
+  become_humble(options_.memory_mb);
+  const int file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  if (file >= 0) {
+    ::dup2(file, STDOUT_FILENO);
+    ::dup2(file, STDERR_FILENO);
+  }
+  ::execvp(program.c_str(), const_cast<char* const*>(arguments));
+  ::_exit(127);
+}
+
+int Measurer::wait_for(pid_t process) {
+  const auto deadline = std::chrono::steady_clock::now() + options_.longest;
+  int status = 0;
+  for (;;) {
+    if (::waitpid(process, &status, WNOHANG) == process) return status;
+    bool stop = std::chrono::steady_clock::now() > deadline;
+    {
+      const std::lock_guard lock(mutex_);
+      stop = stop || stopping_;
+    }
+    if (stop) {
+      ::kill(process, SIGKILL);
+      ::waitpid(process, &status, 0);
+      return status;
+    }
+    std::this_thread::sleep_for(50ms);
+  }
+}
+
+}  // namespace plumbline::service

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: MIT
+#include "firmware/service/status_board.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace plumbline::service {
+namespace {
+
+const char* name_of(capture::Phase phase) {
+  static constexpr std::array<const char*, 4> kNames = {"waiting", "ready", "flying", "landed"};
+  return kNames[static_cast<std::size_t>(phase)];
+}
+
+const char* name_of(FixQuality quality) {
+  static constexpr std::array<const char*, 9> kNames = {"no position", "single", "differential",
+                                                        "pps",         "fixed",  "float",
+                                                        "estimated",   "manual", "simulated"};
+  return kNames[static_cast<std::size_t>(quality)];
+}
+
+bool is_marked(const capture::Marks& marks) {
+  return marks.late || marks.reckoned || marks.no_position || marks.not_fixed || marks.jumped;
+}
+
+std::string metres(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f m", value);
+  return text;
+}
+
+}  // namespace
+
+void StatusBoard::heard(const capture::Input& input) {
+  const std::lock_guard lock(mutex_);
+  if (const auto* heard = std::get_if<capture::FixHeard>(&input.what)) {
+    const bool other = !fix_ || fix_->quality != heard->fix.quality;
+    fix_ = heard->fix;
+    if (other) changed();
+  } else if (const auto* camera = std::get_if<capture::CameraSeen>(&input.what)) {
+    streaming_ = camera->streaming;
+    changed();
+  }
+}
+
+void StatusBoard::decided(const capture::Decision& decision) {
+  const std::lock_guard lock(mutex_);
+  if (const auto* phase = std::get_if<capture::PhaseChanged>(&decision.what)) {
+    if (phase->phase == capture::Phase::kFlying && phase_ != capture::Phase::kFlying) {
+      taken_ = stored_ = missed_ = marked_ = 0;
+      last_photo_.reset();
+      advice_.clear();
+    }
+    phase_ = phase->phase;
+    ground_height_m_ = phase->ground_height_m;
+  } else if (const auto* taken = std::get_if<capture::PhotoTaken>(&decision.what)) {
+    ++taken_;
+    if (is_marked(taken->marks)) ++marked_;
+    last_photo_ = *taken;
+  } else if (std::holds_alternative<capture::PhotoMissed>(decision.what)) {
+    ++missed_;
+  }
+  changed();
+}
+
+void StatusBoard::said(const record::Message& message) {
+  const std::lock_guard lock(mutex_);
+  last_said_.insert_or_assign(message.source, message);
+  changed();
+}
+
+void StatusBoard::stored(int, const std::string& folder) {
+  const std::lock_guard lock(mutex_);
+  ++stored_;
+  flight_ = folder;
+  changed();
+}
+
+void StatusBoard::ended(const std::string& folder) {
+  const std::lock_guard lock(mutex_);
+  last_flight_ = folder;
+  changed();
+}
+
+void StatusBoard::advised(const std::string& sentence) {
+  const std::lock_guard lock(mutex_);
+  advice_ = sentence;
+  changed();
+}
+
+void StatusBoard::measured(const std::string& sentence) {
+  const std::lock_guard lock(mutex_);
+  result_ = sentence;
+  changed();
+}
+
+void StatusBoard::free_photos(std::int64_t photos) {
+  const std::lock_guard lock(mutex_);
+  if (free_photos_ != photos) changed();
+  free_photos_ = photos;
+}
+
+std::uint64_t StatusBoard::version() const {
+  const std::lock_guard lock(mutex_);
+  return version_;
+}
+
+std::string StatusBoard::sentence() const {
+  const std::lock_guard lock(mutex_);
+  return sentence_locked();
+}
+
+std::string StatusBoard::sentence_locked() const {
+  const std::string fix = fix_ ? name_of(fix_->quality) : "no position";
+  std::string text;
+  const auto add_said = [&](const char* source) {
+    const auto said = last_said_.find(source);
+    if (said == last_said_.end()) return;
+    if (said->second.severity != record::Severity::kInfo) text += " " + said->second.sentence;
+  };
+  const std::string photos = std::to_string(stored_) + " of " + std::to_string(taken_) +
+                             " photos stored" +
+                             (missed_ > 0 ? ", " + std::to_string(missed_) + " missed" : "") +
+                             (marked_ > 0 ? ", " + std::to_string(marked_) + " marked" : "") + ".";
+  switch (phase_) {
+    case capture::Phase::kWaiting:
+      text = std::string("Waiting for ") +
+             (!fix_ || fix_->quality == FixQuality::kNone ? "a position" : "the camera") + ".";
+      break;
+    case capture::Phase::kReady:
+      text = "Ready: " + fix + "; takes off at 3 m of rise.";
+      if (free_photos_) text += " " + std::to_string(*free_photos_) + " photos fit on the disk.";
+      break;
+    case capture::Phase::kFlying:
+      text = "Flying";
+      if (last_photo_ && last_photo_->place) {
+        text += ", last photo at " + metres(last_photo_->place->height_m);
+      }
+      text += ": " + fix + "; " + photos;
+      if (!advice_.empty()) text += " " + advice_;
+      break;
+    case capture::Phase::kLanded:
+      text = "Landed: " + photos;
+      break;
+  }
+  if (phase_ != capture::Phase::kFlying && !result_.empty()) text += " " + result_;
+  for (const char* source : {"receiver", "camera", "autopilot", "disk", "trigger line", "photo"}) {
+    add_said(source);
+  }
+  return text;
+}
+
+std::string StatusBoard::json() const {
+  const std::lock_guard lock(mutex_);
+  nlohmann::ordered_json json = {{"sentence", sentence_locked()},
+                                 {"phase", name_of(phase_)},
+                                 {"quality", fix_ ? static_cast<int>(fix_->quality) : 0},
+                                 {"camera_streaming", streaming_},
+                                 {"photos_taken", taken_},
+                                 {"photos_stored", stored_},
+                                 {"photos_missed", missed_},
+                                 {"photos_marked", marked_},
+                                 {"advice", advice_},
+                                 {"result", result_},
+                                 {"flight", flight_},
+                                 {"last_flight", last_flight_}};
+  if (fix_ && fix_->covariance_enu_m2) {
+    json["sigma_u_m"] = std::sqrt((*fix_->covariance_enu_m2)(2, 2));
+  }
+  if (fix_ && fix_->height_ellipsoidal_m && ground_height_m_) {
+    json["height_above_take_off_m"] = *fix_->height_ellipsoidal_m - *ground_height_m_;
+  }
+  if (free_photos_) json["free_photos"] = *free_photos_;
+  for (const auto& [source, message] : last_said_) {
+    if (message.severity != record::Severity::kInfo) json["trouble"][source] = message.sentence;
+  }
+  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+}  // namespace plumbline::service

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+
+#include "edge/capture/decisions.h"
+#include "edge/capture/inputs.h"
+#include "edge/record/entry.h"
+
+namespace plumbline::service {
+
+// What the daemon is doing, gathered from what happens, as one sentence and as JSON. Any thread.
+class StatusBoard {
+ public:
+  void heard(const capture::Input& input);
+  void decided(const capture::Decision& decision);
+  void said(const record::Message& message);
+  void stored(int number, const std::string& folder);
+  void ended(const std::string& folder);
+  void advised(const std::string& sentence);
+  void measured(const std::string& sentence);
+  void free_photos(std::int64_t photos);
+
+  std::uint64_t version() const;  // counts what changed
+  std::string json() const;       // one line
+  std::string sentence() const;
+
+ private:
+  std::string sentence_locked() const;
+  void changed() { ++version_; }
+
+  mutable std::mutex mutex_;
+  std::uint64_t version_ = 0;
+  capture::Phase phase_ = capture::Phase::kWaiting;
+  std::optional<GnssFix> fix_;
+  std::optional<double> ground_height_m_;
+  bool streaming_ = false;
+  int taken_ = 0, stored_ = 0, missed_ = 0, marked_ = 0;
+  std::optional<capture::PhotoTaken> last_photo_;
+  std::map<std::string, record::Message> last_said_;  // by source
+  std::string flight_, last_flight_, advice_, result_;
+  std::optional<std::int64_t> free_photos_;
+};
+
+}  // namespace plumbline::service
