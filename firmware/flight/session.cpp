@@ -7,6 +7,7 @@
 namespace plumbline::flight {
 namespace {
 
+constexpr std::chrono::milliseconds kLookForEntries{250};
 constexpr std::chrono::seconds kBeforeKept{120};    // of inputs on the ground
 constexpr std::chrono::milliseconds kTryEvery{50};  // whether a flight has ended
 constexpr int kLastTries = 400;                     // without a photo more on the disk
@@ -47,26 +48,32 @@ Status Session::start() {
   facts.notes = opened->notes;
   recorder_ = make_recorder(std::move(*flight));
   begin_flight(resumed, &facts);
-  if (options_.threads) {
-    pulse_worker_ =
-        std::make_unique<Worker>(devices_.clock, Worker::Work{[this] {
-                                                                if (pulses_wanted_.load() == 0)
-                                                                  return false;
-                                                                --pulses_wanted_;
-                                                                pulse();
-                                                                return true;
-                                                              },
-                                                              [] { return HostTime::max(); }});
-    encode_worker_ = std::make_unique<Worker>(
-        devices_.clock,
-        Worker::Work{[this] { return encoder_.work(); }, [] { return HostTime::max(); }});
-    disk_worker_ = std::make_unique<Worker>(
-        devices_.clock,
-        Worker::Work{[this] { return work_disk(); }, [this] { return disk_due(); }});
-  }
+  if (options_.threads) start_workers();
   Status status = Done{};
   start_devices(status);
   return status;
+}
+
+void Session::start_workers() {
+  pulse_worker_ =
+      std::make_unique<Worker>(devices_.clock, Worker::Work{[this] {
+                                                              if (pulses_wanted_.load() == 0)
+                                                                return false;
+                                                              --pulses_wanted_;
+                                                              pulse();
+                                                              return true;
+                                                            },
+                                                            [] { return HostTime::max(); }});
+  encode_worker_ = std::make_unique<Worker>(
+      devices_.clock,
+      Worker::Work{[this] { return encoder_.work(); }, [] { return HostTime::max(); }});
+  disk_worker_ = std::make_unique<Worker>(
+      devices_.clock, Worker::Work{[this] { return work_disk(); },
+                                   [this] {
+                                     // Entries come without a word: it looks for them.
+                                     return std::min(disk_due(),
+                                                     devices_.clock.now() + kLookForEntries);
+                                   }});
 }
 
 void Session::start_devices(Status& status) {

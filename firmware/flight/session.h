@@ -95,6 +95,7 @@ class Session {
   };
   using Event = std::variant<DeviceEvent, FromDisk, FlightEnded, record::Message>;
 
+  void start_workers();
   void start_devices(Status& status);
   void listen(TriggerLine* line, bool is_shutter, Status& status);
   std::shared_ptr<Recorder> make_recorder(std::optional<OpenFlight> flight);

@@ -280,5 +280,20 @@ TEST(SlowDisk, CostsNoPhoto) {
   for (const auto& [number, stored] : flight.stored) EXPECT_TRUE(is_whole(disk, "0001", stored));
 }
 
+// On a thread of its own, too: no photo comes to wake it.
+TEST(SlowDisk, HasTheJournalWithinTwoSecondsWithoutAnyPhoto) {
+  flights::Drone drone(climb());
+  PacedClock clock(drone.clock(), 4);
+  sim::SimDisk disk;
+  const SessionOptions usual;
+  Session session(usual, {clock, disk, drone.receiver(), &drone.camera()}, {});
+  ASSERT_TRUE(session.start());
+  session.run(clock.now() + seconds(5));
+  const std::uint64_t before = recorded_flight(disk, "0001").summary.entries;
+  session.run(clock.now() + seconds(5));
+  EXPECT_GT(before, 10u);
+  EXPECT_GT(recorded_flight(disk, "0001").summary.entries, before + 10);
+}
+
 }  // namespace
 }  // namespace plumbline::flight
