@@ -47,7 +47,9 @@ flight::SessionOptions session_options(const config::Config& config, const std::
 }
 
 Daemon::Daemon(const config::Config& config, SingleInstance instance)
-    : config_(config), instance_(std::move(instance)) {}
+    : config_(config),
+      instance_(std::move(instance)),
+      board_(config.capture.release.release == capture::Release::kNearestFrame) {}
 
 Daemon::~Daemon() {
   session_.reset();  // its events reach the others

@@ -139,6 +139,7 @@ std::string StatusBoard::sentence_locked() const {
         text += ", last photo at " + metres(last_photo_->place->height_m);
       }
       text += ": " + fix + "; " + photos;
+      if (needs_frames_ && !streaming_) text += " No camera sends frames: no photo is taken.";
       if (!advice_.empty()) text += " " + advice_;
       break;
     case capture::Phase::kLanded:

@@ -17,6 +17,9 @@ namespace plumbline::service {
 // What the daemon is doing, gathered from what happens, as one sentence and as JSON. Any thread.
 class StatusBoard {
  public:
+  // Whether photos come as frames of a camera that this computer reads.
+  explicit StatusBoard(bool needs_frames = true) : needs_frames_(needs_frames) {}
+
   void heard(const capture::Input& input);
   void decided(const capture::Decision& decision);
   void said(const record::Message& message);
@@ -34,6 +37,7 @@ class StatusBoard {
   std::string sentence_locked() const;
   void changed() { ++version_; }
 
+  const bool needs_frames_;
   mutable std::mutex mutex_;
   std::uint64_t version_ = 0;
   capture::Phase phase_ = capture::Phase::kWaiting;
