@@ -102,8 +102,7 @@ std::string flight(const Config& config) {
 std::string recording(const Config& config) {
   return line("recorded",
               {"in " + config.recording.folder,
-               "not with less than " + std::to_string(config.recording.keep_free_mb) + " MB free",
-               config.recording.clean_results ? "old results make room" : ""});
+               std::to_string(config.recording.keep_free_mb) + " MB of the disk not counted on"});
 }
 
 std::string measuring(const Config& config) {
