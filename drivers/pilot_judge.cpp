@@ -7,7 +7,7 @@ namespace plumbline {
 namespace {
 
 // An autopilot sends a heartbeat each second; three of them may be lost.
-constexpr std::chrono::milliseconds kPatience{3500};
+constexpr std::chrono::milliseconds kPilotPatience{3500};
 
 }  // namespace
 
@@ -24,7 +24,7 @@ void PilotJudge::absent(HostTime now, const std::string& sentence) {
 
 // After a silence the others get their time from here.
 void PilotJudge::bytes_came(HostTime now) {
-  if (now - last_byte_ >= kPatience) last_frame_ = last_heartbeat_ = now;
+  if (now - last_byte_ >= kPilotPatience) last_frame_ = last_heartbeat_ = now;
   last_byte_ = now;
 }
 
@@ -35,16 +35,16 @@ void PilotJudge::heartbeat_came(HostTime now) {
 
 void PilotJudge::look(HostTime now) {
   if (!open_) return;
-  if (now - last_byte_ >= kPatience) {
+  if (now - last_byte_ >= kPilotPatience) {
     become(now, PilotState::kSilent,
            "Nothing comes from the autopilot on " + name_ +
                ": check its power and cable, and that its telemetry goes to this port.");
-  } else if (now - last_frame_ >= kPatience) {
+  } else if (now - last_frame_ >= kPilotPatience) {
     become(now, PilotState::kGarbled,
            "What comes on " + name_ +
                " is not MAVLink: set the autopilot's telemetry port to MAVLink and to this speed, "
                "and check the cable.");
-  } else if (now - last_heartbeat_ >= kPatience) {
+  } else if (now - last_heartbeat_ >= kPilotPatience) {
     become(now, PilotState::kNoAutopilot,
            "MAVLink comes on " + name_ +
                ", but no heartbeat of an autopilot: check what is connected there.");

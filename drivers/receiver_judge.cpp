@@ -8,7 +8,7 @@ namespace plumbline {
 namespace {
 
 // A receiver sends once a second at the slowest; a fault is to be known within two.
-constexpr std::chrono::milliseconds kPatience{1500};
+constexpr std::chrono::milliseconds kReceiverPatience{1500};
 
 std::string decimal(double value) {
   char text[32];
@@ -66,7 +66,7 @@ void ReceiverJudge::bytes_came(HostTime now) {
 }
 
 void ReceiverJudge::sentence_came(HostTime now) {
-  if (now >= last_sentence_ + kPatience) sentences_since_ = now;
+  if (now >= last_sentence_ + kReceiverPatience) sentences_since_ = now;
   last_sentence_ = now;
 }
 
@@ -115,14 +115,14 @@ HostTime ReceiverJudge::due(HostTime now) const {
   return next;
 }
 
-HostTime ReceiverJudge::silent_at() const { return last_byte_ + kPatience; }
+HostTime ReceiverJudge::silent_at() const { return last_byte_ + kReceiverPatience; }
 
 HostTime ReceiverJudge::garbled_at() const {
-  return std::max(bytes_since_, last_sentence_) + kPatience;
+  return std::max(bytes_since_, last_sentence_) + kReceiverPatience;
 }
 
 HostTime ReceiverJudge::no_epoch_at() const {
-  return std::max(sentences_since_, last_epoch_) + kPatience;
+  return std::max(sentences_since_, last_epoch_) + kReceiverPatience;
 }
 
 void ReceiverJudge::become(HostTime now, ReceiverState state, const std::string& sentence) {

@@ -121,7 +121,8 @@ void V4l2Session::show_whole_sensor() {
 
 // Before the mode is chosen, because a Bayer sensor that is mirrored has another order of colours.
 void V4l2Session::stand_upright() {
-  for (const std::uint32_t id : {V4L2_CID_HFLIP, V4L2_CID_VFLIP, V4L2_CID_ROTATE}) {
+  for (const std::uint32_t id : {std::uint32_t{V4L2_CID_HFLIP}, std::uint32_t{V4L2_CID_VFLIP},
+                                 std::uint32_t{V4L2_CID_ROTATE}}) {
     v4l2_control upright{id, 0};
     device_.call(VIDIOC_S_CTRL, &upright);  // many have none, and of what is refused apply() tells
   }
@@ -200,7 +201,8 @@ void V4l2Session::read_interior() {
 }
 
 void V4l2Session::subscribe() {
-  for (const std::uint32_t id : {V4L2_CID_FOCUS_ABSOLUTE, V4L2_CID_ZOOM_ABSOLUTE}) {
+  for (const std::uint32_t id :
+       {std::uint32_t{V4L2_CID_FOCUS_ABSOLUTE}, std::uint32_t{V4L2_CID_ZOOM_ABSOLUTE}}) {
     v4l2_event_subscription wanted{};
     wanted.type = V4L2_EVENT_CTRL;
     wanted.id = id;

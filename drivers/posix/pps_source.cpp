@@ -15,7 +15,7 @@
 namespace plumbline::posix {
 namespace {
 
-std::string why(int code) {
+std::string why_no_pulse(int code) {
   switch (code) {
     case ENOENT:
     case ENODEV:
@@ -33,7 +33,7 @@ std::string why(int code) {
 }
 
 Error pps_error(const std::string& attempted, const std::string& path, int code) {
-  return {"Cannot " + attempted + " '" + path + "': " + why(code) + "."};
+  return {"Cannot " + attempted + " '" + path + "': " + why_no_pulse(code) + "."};
 }
 
 WallTime wall_time(const pps_ktime& time) {

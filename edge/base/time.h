@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 
 namespace plumbline {
@@ -32,5 +33,13 @@ using GpsTime = GpsClock::time_point;
 // What the system believes the calendar says (CLOCK_REALTIME): it jumps when it is set, and after a
 // start without network it is wrong by years. For names and logs only; nothing is ordered by it.
 using WallTime = std::chrono::sys_time<std::chrono::nanoseconds>;
+
+// A duration for arithmetic, and back to the nearest nanosecond.
+inline double in_seconds(std::chrono::nanoseconds duration) {
+  return std::chrono::duration<double>(duration).count();
+}
+inline std::chrono::nanoseconds from_seconds(double value_s) {
+  return std::chrono::nanoseconds(std::llround(value_s * 1e9));
+}
 
 }  // namespace plumbline

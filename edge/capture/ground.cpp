@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kSeconds = 13;
 constexpr std::size_t kNotYet = 3;  // the last seconds, which do not count
 constexpr double kNearby_m = 0.3;   // as high as the ground, or three sigmas
-constexpr double kSigmas = 3;
+constexpr double kGroundSigmas = 3;
 constexpr int kLower_s = 4;    // flat for so long below the ground: this is the ground
 constexpr int kHigher_s = 60;  // and above it
 
@@ -48,12 +48,12 @@ bool Ground::is_flat(std::size_t seconds, double doubt_m) const {
 void Ground::begin_second(std::int64_t number) {
   if (!seconds_.empty()) {
     const double sigma_m = seconds_.back().sigma_m;
-    const double doubt_m = std::max(kNearby_m, kSigmas * sigma_m);
+    const double doubt_m = std::max(kNearby_m, kGroundSigmas * sigma_m);
     const double last_m = seconds_.back().mean_m();
     flat_seconds_ = is_flat(2, doubt_m / 2) ? flat_seconds_ + 1 : 0;
     const double rise_m = last_m - *height_m_;
     const bool here = std::abs(rise_m) <= doubt_m;
-    const bool better = sigma_m < sigma_m_ && rise_m <= kSigmas * sigma_m_;
+    const bool better = sigma_m < sigma_m_ && rise_m <= kGroundSigmas * sigma_m_;
     const int settled_s = rise_m < 0 || better ? kLower_s : kHigher_s;
     if (!here && flat_seconds_ >= settled_s && is_flat(kLower_s, doubt_m)) {
       height_m_ = last_m;

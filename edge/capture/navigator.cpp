@@ -11,10 +11,8 @@
 namespace plumbline::capture {
 namespace {
 
-constexpr double kJump_m = 1;  // at the least
-constexpr double kSigmas = 6;  // and beyond what is known
-
-double in_seconds(nanoseconds duration) { return std::chrono::duration<double>(duration).count(); }
+constexpr double kJump_m = 1;      // at the least
+constexpr double kJumpSigmas = 6;  // and beyond what is known
 
 Motion later(const Motion& last, HostTime time) {
   Motion motion = last;
@@ -77,7 +75,7 @@ void Navigator::follow_jumps(const std::optional<Motion>& foreseen) {
   if (!begun || !foreseen || !last_) return;
   const Eigen::Vector3d off_m = last_->in_enu_m - foreseen->in_enu_m;
   const double sigma_m = std::sqrt((last_->covariance_m2 + foreseen->covariance_m2).trace());
-  if (off_m.norm() > std::max(kJump_m, kSigmas * sigma_m)) jumped_m_ += off_m;
+  if (off_m.norm() > std::max(kJump_m, kJumpSigmas * sigma_m)) jumped_m_ += off_m;
 }
 
 bool Navigator::has_jumped() const { return jumped_m_.norm() > kJump_m; }

@@ -10,7 +10,8 @@ namespace {
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 
-constexpr microseconds kDay = std::chrono::hours(24);
+constexpr microseconds kHalfDay = std::chrono::hours(12);
+constexpr microseconds kWholeDay = std::chrono::hours(24);
 constexpr microseconds kGridTolerance = milliseconds(2);
 
 std::vector<microseconds> intervals_of(const std::vector<GnssFix>& fixes) {
@@ -38,8 +39,8 @@ bool mostly_on_grid(const std::vector<microseconds>& intervals, microseconds ste
 // The time of day, on the day that puts it nearest to `other`.
 UtcTime near(microseconds time_of_day, UtcTime other) {
   UtcTime time = std::chrono::floor<std::chrono::days>(other) + time_of_day;
-  if (time - other > kDay / 2) time -= kDay;
-  if (other - time > kDay / 2) time += kDay;
+  if (time - other > kHalfDay) time -= kWholeDay;
+  if (other - time > kHalfDay) time += kWholeDay;
   return time;
 }
 

@@ -23,7 +23,7 @@ namespace {
 constexpr std::array<int, 6> kHalfSizes = {8, 11, 15, 20, 27, 36};
 constexpr double kWantedSigma_px = 0.03;
 constexpr double kGreyNoise = 3.0;
-constexpr std::size_t kFewestMatches = 8;
+constexpr std::size_t kFewestLocalMatches = 8;
 
 // Picks decide where named points are, so they are held to more than ties are.
 MatchOptions strict(int half_size) { return {half_size, 0.85, 3.0, 0.25}; }
@@ -47,7 +47,7 @@ std::optional<PairMatches> matches_of(const TiePoints& ties, int first, int seco
     (one.photo == first ? in_first : in_second) = &one.pixel;
     if (in_first && in_second) found.matches.push_back({*in_first, *in_second});
   }
-  if (found.matches.size() < kFewestMatches) return std::nullopt;
+  if (found.matches.size() < kFewestLocalMatches) return std::nullopt;
   const auto homography = fit_homography(found.matches);
   if (!homography) return std::nullopt;
   found.second_from_first = *homography;

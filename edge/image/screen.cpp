@@ -15,7 +15,7 @@ constexpr int kFeaturesPerPhoto = 2000;
 constexpr int kFewestInliers = 15;
 // Of the photo's width: the homography's consensus must survive lens distortion and low relief.
 constexpr double kPlaneTolerance = 0.006;
-constexpr std::size_t kNeighbours = 8;
+constexpr std::size_t kScreenNeighbours = 8;
 constexpr int kFewestAgreeing = 3;
 
 // Residuals of matches against the plane, and which agree with their neighbours: relief and
@@ -31,7 +31,7 @@ std::vector<Correspondence> agreeing(const std::vector<Correspondence>& matches,
     for (std::size_t k = 0; k < matches.size(); ++k) {
       if (k != i) others.emplace_back((matches[k].first_px - matches[i].first_px).norm(), k);
     }
-    const std::size_t count = std::min(kNeighbours, others.size());
+    const std::size_t count = std::min(kScreenNeighbours, others.size());
     std::partial_sort(others.begin(), others.begin() + static_cast<std::ptrdiff_t>(count),
                       others.end());
     int friends = 0;

@@ -12,7 +12,7 @@ namespace plumbline::mavlink {
 namespace {
 
 constexpr int kOnboardController = 18;  // MAV_TYPE
-constexpr int kNoAutopilot = 8;         // MAV_AUTOPILOT_INVALID
+constexpr int kOwnAutopilot = 8;        // MAV_AUTOPILOT_INVALID
 constexpr int kActive = 4;              // MAV_STATE
 constexpr int kProtocolVersion = 3;     // of both MAVLink 1 and 2
 constexpr int kSafetyArmed = 128;       // MAV_MODE_FLAG
@@ -65,7 +65,7 @@ void set_position(PilotPosition& position, std::int32_t latitude_e7, std::int32_
 std::string own_heartbeat_payload() {
   std::string payload(4, '\0');  // custom_mode
   payload += static_cast<char>(kOnboardController);
-  payload += static_cast<char>(kNoAutopilot);
+  payload += static_cast<char>(kOwnAutopilot);
   payload += '\0';  // base_mode
   payload += static_cast<char>(kActive);
   payload += static_cast<char>(kProtocolVersion);

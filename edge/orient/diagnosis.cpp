@@ -4,11 +4,11 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "edge/base/units.h"
 #include "edge/orient/camera_prior.h"
+#include "edge/orient/formatted.h"
 
 namespace plumbline::orient {
 namespace {
@@ -24,14 +24,9 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-template <typename... Arguments>
-std::string text(const char* format, Arguments... arguments) {
-  char buffer[512];
-  std::snprintf(buffer, sizeof buffer, format, arguments...);
-  return buffer;
+std::string in_degrees(double sigma_rad) {
+  return formatted("%.2g degrees", sigma_rad * kDegPerRad);
 }
-
-std::string in_degrees(double sigma_rad) { return text("%.2g degrees", sigma_rad * kDegPerRad); }
 
 // The sigma of the common compass, where headings are given: their mean's own prior.
 double heading_sigma(const Network& network) {
@@ -88,31 +83,33 @@ void judge_focal_length(const Evidence& e, const CommonSigmas& s, const Options&
   const double f = e.state.interior[geometry::kFocalLength];
   const double prior = prior_sigmas(e.network.problem->camera)[geometry::kFocalLength] / f;
   if (s.focal_length > options.max_focal_length_sigma) {
-    out.push_back({"focal_length",
-                   text("The focal length is known only to %.2g %% (sigma), and flying height and "
-                        "scale with it. A calibrated camera, a side-step, or a known length fixes "
-                        "it.",
-                        100 * s.focal_length)});
+    out.push_back(
+        {"focal_length",
+         formatted("The focal length is known only to %.2g %% (sigma), and flying height and "
+                   "scale with it. A calibrated camera, a side-step, or a known length fixes "
+                   "it.",
+                   100 * s.focal_length)});
   } else if (rests_on_prior(s.focal_length, prior, options)) {
     out.push_back({"focal_length",
-                   text("The photos do not test the focal length: it rests on the calibration "
-                        "given (%.2g %%). A side-step, tilted photos or a known length would "
-                        "check it.",
-                        100 * s.focal_length)});
+                   formatted("The photos do not test the focal length: it rests on the calibration "
+                             "given (%.2g %%). A side-step, tilted photos or a known length would "
+                             "check it.",
+                             100 * s.focal_length)});
   }
 }
 
 void judge_scale(const CommonSigmas& s, const Options& options, std::vector<Unobservable>& out) {
   if (!std::isfinite(s.scale)) {
     out.push_back(
-        {"scale", text("Nothing in the input gives the scale: all lengths are in units of 1/%.0f "
-                       "of the height of one photo. One known length (--length A,B,METRES) or "
-                       "GNSS positions fix it.",
-                       100.0)});
+        {"scale",
+         formatted("Nothing in the input gives the scale: all lengths are in units of 1/%.0f "
+                   "of the height of one photo. One known length (--length A,B,METRES) or "
+                   "GNSS positions fix it.",
+                   100.0)});
   } else if (s.scale > options.max_scale_sigma) {
-    out.push_back({"scale", text("The scale is known only to %.2g %% (sigma). A known length "
-                                 "(--length A,B,METRES) or RTK positions fix it.",
-                                 100 * s.scale)});
+    out.push_back({"scale", formatted("The scale is known only to %.2g %% (sigma). A known length "
+                                      "(--length A,B,METRES) or RTK positions fix it.",
+                                      100 * s.scale)});
   }
 }
 
@@ -124,19 +121,20 @@ void judge_position(const Evidence& e, const CommonSigmas& s, const Options& opt
                    "Nothing in the input gives the absolute position: coordinates are "
                    "relative only. GNSS positions or a control point fix it."});
   } else if (s.position_m > options.max_position_sigma_m) {
-    out.push_back({"position",
-                   text("The absolute position is known only to %.3g m (sigma): coordinates and "
-                        "heights are relative only. RTK positions of known height reference, or a "
-                        "control point, fix it.",
-                        s.position_m)});
+    out.push_back(
+        {"position",
+         formatted("The absolute position is known only to %.3g m (sigma): coordinates and "
+                   "heights are relative only. RTK positions of known height reference, or a "
+                   "control point, fix it.",
+                   s.position_m)});
   } else if (std::max(gnss.offset_sigma_horizontal_m, gnss.offset_sigma_vertical_m) > 0 &&
              e.network.problem->control.empty()) {
     out.push_back(
         {"gnss_offset",
-         text("An error common to all GNSS positions (sigma %.2g m in plan, %.2g m in height) "
-              "cannot be seen by the photos: it shifts all points alike. Differences between "
-              "points are not touched by it; a control point removes it.",
-              gnss.offset_sigma_horizontal_m, gnss.offset_sigma_vertical_m)});
+         formatted("An error common to all GNSS positions (sigma %.2g m in plan, %.2g m in height) "
+                   "cannot be seen by the photos: it shifts all points alike. Differences between "
+                   "points are not touched by it; a control point removes it.",
+                   gnss.offset_sigma_horizontal_m, gnss.offset_sigma_vertical_m)});
   }
 }
 
@@ -147,26 +145,29 @@ void judge_times(const Evidence& e, const Options& options, std::vector<Unobserv
   };
   const double delay_prior = e.network.problem->delay.sigma_s;
   if (e.network.shared_mask[kDelay] != 0 && rests_on_prior(sigma(kDelay), delay_prior, options)) {
-    out.push_back({"delay", text("The delay between camera and GNSS rests on what was given "
-                                 "(%.2g s): at one velocity it shifts all positions alike. Photos "
-                                 "at different speeds, some at rest, or control points fix it.",
-                                 delay_prior)});
+    out.push_back(
+        {"delay", formatted("The delay between camera and GNSS rests on what was given "
+                            "(%.2g s): at one velocity it shifts all positions alike. Photos "
+                            "at different speeds, some at rest, or control points fix it.",
+                            delay_prior)});
   }
   const double line_prior = e.network.problem->camera.line_time_sigma_us * kSecondsPerMicrosecond;
   if (e.network.shared_mask[kLineTime] != 0 &&
       rests_on_prior(sigma(kLineTime), line_prior, options)) {
-    out.push_back({"line_time", text("The line time of the rolling shutter rests on what was given "
-                                     "(%.2g us). Photos at different speeds would show it.",
-                                     line_prior / kSecondsPerMicrosecond)});
+    out.push_back(
+        {"line_time", formatted("The line time of the rolling shutter rests on what was given "
+                                "(%.2g us). Photos at different speeds would show it.",
+                                line_prior / kSecondsPerMicrosecond)});
   }
 }
 
 void judge_height(const CommonSigmas& s, const Options& options, std::vector<Unobservable>& out) {
   if (s.height <= options.max_height_sigma) return;
-  out.push_back({"height", text("Heights of the points are known only to %.2g %% of the flying "
-                                "height (median sigma): the base is too short or too much in line "
-                                "with the points. Climb further or step aside.",
-                                100 * s.height)});
+  out.push_back(
+      {"height", formatted("Heights of the points are known only to %.2g %% of the flying "
+                           "height (median sigma): the base is too short or too much in line "
+                           "with the points. Climb further or step aside.",
+                           100 * s.height)});
 }
 
 }  // namespace
@@ -223,16 +224,16 @@ std::vector<std::string> cautions(const Evidence& e, const CommonSigmas& sigmas)
   const bool other_scale =
       !e.network.problem->lengths.empty() || e.network.problem->control.size() >= 2;
   if (poor > kPoorStationM && std::isfinite(sigmas.scale) && !other_scale) {
-    sentences.push_back(
-        text("Scale (%.2g %%), azimuth, level and absolute position (%.2g m) rest only on GNSS "
-             "positions "
-             "of %.2g m sigma; ratios of lengths and the shape of the ground do not.",
-             100 * sigmas.scale, sigmas.position_m, poor));
+    sentences.push_back(formatted(
+        "Scale (%.2g %%), azimuth, level and absolute position (%.2g m) rest only on GNSS "
+        "positions "
+        "of %.2g m sigma; ratios of lengths and the shape of the ground do not.",
+        100 * sigmas.scale, sigmas.position_m, poor));
   } else if (poor > kPoorStationM && std::isfinite(sigmas.position_m) &&
              e.network.problem->control.empty()) {
     sentences.push_back(
-        text("The absolute position (%.2g m) rests only on GNSS positions of %.2g m sigma.",
-             sigmas.position_m, poor));
+        formatted("The absolute position (%.2g m) rests only on GNSS positions of %.2g m sigma.",
+                  sigmas.position_m, poor));
   }
   return sentences;
 }

@@ -3,23 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "edge/base/units.h"
 #include "edge/orient/exchanged_names.h"
+#include "edge/orient/formatted.h"
 
 namespace plumbline::orient {
 namespace {
 
 // A quantity rests on a claim alone where the claim takes all but this share of its variance away.
 constexpr double kCarriedByOthers = 0.02;
-
-template <typename... Arguments>
-std::string text(const char* format, Arguments... arguments) {
-  char buffer[512];
-  std::snprintf(buffer, sizeof buffer, format, arguments...);
-  return buffer;
-}
 
 std::string capital(std::string sentence) {
   if (!sentence.empty() && sentence[0] >= 'a' && sentence[0] <= 'z')
@@ -63,26 +56,26 @@ std::string sentence_of(const ClaimTest& test, double size, const Finished& f) {
   const std::string what = capital(in_words(test.claim, f.network));
   switch (test.claim.kind) {
     case ClaimKind::kStation:
-      return what + text(" disagrees with all others by %.2f m (%.1f sigma) and was not used.",
-                         size, sigmas);
+      return what + formatted(" disagrees with all others by %.2f m (%.1f sigma) and was not used.",
+                              size, sigmas);
     case ClaimKind::kLength:
-      return what + text(" is %.3f m too %s by all the rest (%.1f sigma) and was not used.",
-                         std::abs(size), size > 0 ? "long" : "short", sigmas);
+      return what + formatted(" is %.3f m too %s by all the rest (%.1f sigma) and was not used.",
+                              std::abs(size), size > 0 ? "long" : "short", sigmas);
     case ClaimKind::kControl:
-      return what +
-             text(" is off by %.3f m by all the rest (%.1f sigma) and was not used.", size, sigmas);
+      return what + formatted(" is off by %.3f m by all the rest (%.1f sigma) and was not used.",
+                              size, sigmas);
     case ClaimKind::kInterior:
       break;
   }
   const double given = f.network.problem->camera.interior[test.claim.index];
   if (test.claim.index == geometry::kFocalLength)
-    return what + text(
+    return what + formatted(
                       " (%.1f px) is off by %.2g %% (%.1f sigma): photos and positions ask for "
                       "%.1f px, which was used.",
                       given, 100 * std::abs(size) / f.state.interior[0], sigmas,
                       f.state.interior[0]);
-  return what + text(" (%.4g) is contradicted by the photos (%.1f sigma): %.4g was used.", given,
-                     sigmas, f.state.interior[test.claim.index]);
+  return what + formatted(" (%.4g) is contradicted by the photos (%.1f sigma): %.4g was used.",
+                          given, sigmas, f.state.interior[test.claim.index]);
 }
 
 void add_blunder(const ClaimTest& test, const Finished& f, Solution& solution) {
@@ -147,7 +140,7 @@ std::vector<Quantity> quantities(const Finished& f, const LocalFrameFit& frame) 
 }
 
 std::string figure(double value, const Quantity& q) {
-  return text("%.2g %s", value * q.factor, q.unit);
+  return formatted("%.2g %s", value * q.factor, q.unit);
 }
 
 std::string sentence_of(const Quantity& q, const std::string& subject, double without) {

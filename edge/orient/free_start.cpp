@@ -8,6 +8,7 @@
 
 #include "edge/geometry/rotation.h"
 #include "edge/orient/plane_similarity.h"
+#include "edge/orient/rays.h"
 
 namespace plumbline::orient {
 namespace {
@@ -114,12 +115,6 @@ std::vector<LevelPhoto> largest_tree(int photos, const PairTable& pairs) {
   return best;
 }
 
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // The median, not the mean: one wrong match among few must not drag the point away.
 std::vector<Eigen::Vector3d> points_on_plane(const Problem& problem,
                                              const std::vector<std::vector<View>>& views,
@@ -135,7 +130,7 @@ std::vector<Eigen::Vector3d> points_on_plane(const Problem& problem,
   }
   std::vector<Eigen::Vector3d> points(east.size(), Eigen::Vector3d::Zero());
   for (std::size_t p = 0; p < points.size(); ++p) {
-    if (!east[p].empty()) points[p] = {median(east[p]), median(north[p]), 0};
+    if (!east[p].empty()) points[p] = {upper_median(east[p]), upper_median(north[p]), 0};
   }
   return points;
 }

@@ -101,11 +101,9 @@ void summarise_images(const Finished& f, const Solution& solution, Summary& summ
 
 void summarise_fits(const Finished& f, Summary& summary) {
   GroupFit total;
-  int observations = 0;
   for (const auto& [name, fit] : f.fits) {
     total.squares += fit.squares;
     total.redundancy += fit.redundancy;
-    observations += fit.observations;
     if (name == "datum") continue;
     summary.sigma0_by_group[name] =
         fit.redundancy > 1e-6 ? std::sqrt(fit.squares / fit.redundancy) : 0;

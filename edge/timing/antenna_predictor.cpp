@@ -11,8 +11,6 @@
 namespace plumbline::timing {
 namespace {
 
-double in_seconds(nanoseconds duration) { return std::chrono::duration<double>(duration).count(); }
-
 geodesy::Geodetic place_of(const GnssFix& fix) {
   return {*fix.latitude_deg, *fix.longitude_deg, *fix.height_ellipsoidal_m};
 }

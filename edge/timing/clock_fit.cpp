@@ -14,10 +14,6 @@ namespace {
 constexpr std::size_t kMostDoubtful = 64;
 constexpr std::uint64_t kLeastToEstimate = 3;
 
-nanoseconds from_seconds(double seconds) { return nanoseconds(std::llround(seconds * 1e9)); }
-
-double in_seconds(nanoseconds duration) { return std::chrono::duration<double>(duration).count(); }
-
 void add_sigma(GnssClock& clock, double sigma_s) { clock.variance_s2 += sigma_s * sigma_s; }
 
 // What a line fitted over the last `span_s` seconds does not know of a rate that changed meanwhile.

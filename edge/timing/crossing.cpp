@@ -11,8 +11,6 @@ namespace {
 constexpr nanoseconds kStep = std::chrono::milliseconds(100);
 constexpr int kNewtonSteps = 4;
 
-nanoseconds from_seconds(double seconds) { return nanoseconds(std::llround(seconds * 1e9)); }
-
 // How far beyond the place to be crossed, and how fast.
 struct Progress {
   double beyond_m = 0;

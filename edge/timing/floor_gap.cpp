@@ -11,7 +11,7 @@ namespace {
 constexpr double kPowerShape = 3;
 constexpr double kPowerRate = 2;
 // What a receiver's latency varies by: the prior of the gap is exponential of this mean.
-constexpr double kUsualTail_s = 20e-3;
+constexpr double kTailPrior_s = 20e-3;
 // The distances that are weighed. Less than the first does not matter beside the host's own timer.
 constexpr double kNearest_s = 5e-6;
 constexpr double kFurthest_s = 0.3;
@@ -24,7 +24,7 @@ double log_density(const std::vector<double>& above_s, double gap_s) {
   double fall = 0;  // minus the sum of log(y / L)
   for (const double above : above_s) fall -= std::log((above + gap_s) / highest_s);
   return fall - (others + kPowerShape) * std::log(fall + kPowerRate) -
-         others * std::log(highest_s) - gap_s / kUsualTail_s;
+         others * std::log(highest_s) - gap_s / kTailPrior_s;
 }
 
 }  // namespace

@@ -6,8 +6,6 @@
 namespace plumbline::timing {
 namespace {
 
-double in_seconds(nanoseconds duration) { return std::chrono::duration<double>(duration).count(); }
-
 // Of a duration in nanoseconds: exact to one nanosecond for days, where the whole is not.
 nanoseconds scaled(nanoseconds duration, double factor) {
   return nanoseconds(std::llround(static_cast<double>(duration.count()) * factor));

@@ -13,10 +13,6 @@ using std::chrono::seconds;
 
 constexpr std::size_t kMostStrays = 16;
 
-double in_seconds(nanoseconds duration) { return std::chrono::duration<double>(duration).count(); }
-
-nanoseconds from_seconds(double value_s) { return nanoseconds(std::llround(value_s * 1e9)); }
-
 // A stamp as a number of whole seconds after another, and what is left over.
 struct Beat {
   double number = 0;

@@ -23,8 +23,6 @@
 namespace plumbline::commands {
 namespace {
 
-constexpr int kWrongUsage = 2;
-
 // Which command was meant, for the pointer to its help; empty where there is none.
 std::string command_of(const CLI::App& app, int argc, char** argv) {
   if (argc < 2) return {};

@@ -7,4 +7,6 @@ namespace plumbline::commands {
 // no solution), 2 wrong usage.
 int run(int argc, char** argv);
 
+inline constexpr int kWrongUsage = 2;
+
 }  // namespace plumbline::commands

@@ -6,6 +6,7 @@
 #include <memory>
 #include <string>
 
+#include "firmware/commands/commands.h"
 #include "firmware/commands/config_output.h"
 #include "firmware/commands/run_report.h"
 #include "firmware/config/config_text.h"
@@ -13,8 +14,6 @@
 
 namespace plumbline::commands {
 namespace {
-
-constexpr int kWrongUsage = 2;
 
 struct ConfigArguments {
   std::filesystem::path file;

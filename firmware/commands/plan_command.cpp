@@ -11,14 +11,13 @@
 #include "edge/plan/model.h"
 #include "edge/plan/plan.h"
 #include "firmware/commands/adjustment_options.h"
+#include "firmware/commands/commands.h"
 #include "firmware/commands/plan_output.h"
 #include "firmware/commands/run_report.h"
 #include "firmware/ingest/camera_toml.h"
 
 namespace plumbline::commands {
 namespace {
-
-constexpr int kWrongUsage = 2;
 
 struct PlanArguments {
   std::filesystem::path camera;

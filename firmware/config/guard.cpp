@@ -6,7 +6,7 @@
 namespace plumbline::config {
 namespace {
 
-constexpr std::size_t kMostBytes = 64u << 10;
+constexpr std::size_t kMostFileBytes = 64u << 10;
 constexpr int kMostDots = 1'000;  // each may be a table in a table
 
 // Behind the text in quotes that begins at `at`, or at the end of its line.
@@ -33,7 +33,7 @@ Stray too_large() {
 }  // namespace
 
 std::optional<Stray> stray_in(std::string_view text) {
-  if (text.size() > kMostBytes) return too_large();
+  if (text.size() > kMostFileBytes) return too_large();
   int dots = 0;
   std::size_t line = 1;
   for (std::size_t at = 0; at < text.size(); at = next(text, at)) {

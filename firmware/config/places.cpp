@@ -9,7 +9,7 @@
 namespace plumbline::config {
 namespace {
 
-constexpr std::size_t kMostBytes = 200;
+constexpr std::size_t kMostNameBytes = 200;
 constexpr std::size_t kMostSocketBytes = 107;
 
 std::optional<int> whole_number(std::string_view text) {
@@ -53,7 +53,7 @@ bool is_gpio_line(std::string_view text) {
 }  // namespace
 
 bool is_text(const std::string& text) {
-  return text.size() <= kMostBytes && std::ranges::none_of(text, [](char c) {
+  return text.size() <= kMostNameBytes && std::ranges::none_of(text, [](char c) {
            return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
          });
 }

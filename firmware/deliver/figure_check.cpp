@@ -11,7 +11,7 @@
 namespace plumbline::deliver {
 namespace {
 
-constexpr std::size_t kMostArrows = 400;
+constexpr std::size_t kMostCheckArrows = 400;
 // As in Fig. 9 of Kunii and Kumazaki 2018; another factor only where nothing could be seen or the
 // arrows would leave the picture.
 constexpr double kUsualFactor = 10;
@@ -31,7 +31,7 @@ Shown shown_of(const Product& product) {
     index_of[product.problem.point_names[i]] = i;
   for (const survey::CheckedPoint& point : product.check->points) {
     const auto found = index_of.find(point.point);
-    if (found == index_of.end() || shown.names.size() == kMostArrows) continue;
+    if (found == index_of.end() || shown.names.size() == kMostCheckArrows) continue;
     shown.names.push_back(point.point);
     shown.difference_m.emplace_back(point.difference_m.head<2>());
     shown.known_m.emplace_back(product.solution.points[found->second].in_enu_m.head<2>() -

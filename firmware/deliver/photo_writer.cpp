@@ -23,7 +23,7 @@ URational rational(double value, std::uint32_t denominator) {
   return {static_cast<std::uint32_t>(std::llround(value * denominator)), denominator};
 }
 
-Exiv2::URationalValue list_of(const std::vector<URational>& parts) {
+Exiv2::URationalValue rationals(const std::vector<URational>& parts) {
   Exiv2::URationalValue value;
   value.value_ = parts;
   return value;
@@ -34,9 +34,9 @@ Exiv2::URationalValue sexagesimal(double degrees) {
   constexpr std::int64_t kPerSecond = 10'000'000;
   const std::int64_t parts = std::llround(std::abs(degrees) * 3600 * kPerSecond);
   const std::int64_t minutes = parts / (60 * kPerSecond);
-  return list_of({{static_cast<std::uint32_t>(minutes / 60), 1},
-                  {static_cast<std::uint32_t>(minutes % 60), 1},
-                  {static_cast<std::uint32_t>(parts % (60 * kPerSecond)), kPerSecond}});
+  return rationals({{static_cast<std::uint32_t>(minutes / 60), 1},
+                    {static_cast<std::uint32_t>(minutes % 60), 1},
+                    {static_cast<std::uint32_t>(parts % (60 * kPerSecond)), kPerSecond}});
 }
 
 struct CivilTime {
@@ -128,9 +128,10 @@ void put_gps(Exiv2::ExifData& exif, const PhotoTags& tags) {
   exif[group + "GPSDateStamp"] = date_text(utc);
   const auto count = [](auto duration) { return static_cast<std::uint32_t>(duration.count()); };
   put("GPSTimeStamp",
-      list_of({{count(utc.clock.hours()), 1},
-               {count(utc.clock.minutes()), 1},
-               {count(utc.clock.seconds()) * 1000 + count(utc.clock.subseconds()) / 1000, 1000}}));
+      rationals(
+          {{count(utc.clock.hours()), 1},
+           {count(utc.clock.minutes()), 1},
+           {count(utc.clock.seconds()) * 1000 + count(utc.clock.subseconds()) / 1000, 1000}}));
 }
 
 void put_xmp(Exiv2::XmpData& xmp, const PhotoTags& tags) {

@@ -12,14 +12,7 @@
 namespace plumbline::deliver {
 namespace {
 
-const std::string kSigma = "\xcf\x83 ";
 const std::string kUnknown = "\xe2\x80\x93";
-
-using Row = std::vector<std::string>;
-
-void add_axes(Row& row, const Eigen::Vector3d& value, int decimals) {
-  for (int axis = 0; axis < 3; ++axis) row.push_back(fixed_or(value[axis], decimals, kUnknown));
-}
 
 Row station_row(const std::string& name, const orient::OrientedPhoto& photo) {
   Row row = {name};
@@ -74,6 +67,10 @@ std::string correlation_with_focal_length(const geometry::Camera& camera, int i)
 }
 
 }  // namespace
+
+void add_axes(Row& row, const Eigen::Vector3d& value, int decimals) {
+  for (int axis = 0; axis < 3; ++axis) row.push_back(fixed_or(value[axis], decimals, kUnknown));
+}
 
 std::string station_table(const Product& product) {
   Table table;

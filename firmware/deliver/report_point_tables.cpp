@@ -12,15 +12,6 @@
 namespace plumbline::deliver {
 namespace {
 
-const std::string kSigma = "\xcf\x83 ";  // Greek small sigma
-
-using Row = std::vector<std::string>;
-
-void add_axes(Row& row, const Eigen::Vector3d& value, int decimals) {
-  for (int axis = 0; axis < 3; ++axis)
-    row.push_back(fixed_or(value[axis], decimals, "\xe2\x80\x93"));
-}
-
 // As many decimals as sigmas of this size deserve.
 int sigma_decimals(const Eigen::Vector3d& median_m) {
   const double smallest = median_m.minCoeff();
@@ -55,9 +46,6 @@ std::string trust_words(Trust trust) {
   return "\xe2\x9c\x95 not observable";
 }
 
-const orient::MeasuredPoint& point_of(const Product& product, int i) {
-  return product.solution.points[static_cast<std::size_t>(i)];
-}
 const std::string& name_of(const Product& product, int i) {
   return product.problem.point_names[static_cast<std::size_t>(i)];
 }

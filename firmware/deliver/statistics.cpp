@@ -21,10 +21,6 @@ std::vector<bool> only_tie_observations(const Product& product) {
   return only;
 }
 
-const orient::MeasuredPoint& point_of(const Product& product, int index) {
-  return product.solution.points[static_cast<std::size_t>(index)];
-}
-
 Eigen::Vector3d sigmas(const Eigen::Matrix3d& covariance_m2) {
   return covariance_m2.diagonal().cwiseSqrt();
 }
@@ -57,6 +53,10 @@ double distance_from(const Eigen::Vector3d& foot, const Eigen::Vector3d& place) 
 }
 
 }  // namespace
+
+const orient::MeasuredPoint& point_of(const Product& product, int index) {
+  return product.solution.points[static_cast<std::size_t>(index)];
+}
 
 PointKinds point_kinds(const Product& product) {
   const std::vector<bool> only_ties = only_tie_observations(product);

@@ -10,6 +10,8 @@
 
 namespace plumbline::deliver {
 
+const orient::MeasuredPoint& point_of(const Product& product, int index);
+
 // The measured points of a product (indices), as people ask for them.
 struct PointKinds {
   std::vector<int> named;                 // by hand, or from a table

@@ -9,16 +9,16 @@ namespace plumbline::deliver {
 namespace {
 
 // To a tenth of a unit, shortest: a page holds thousands of these.
-std::string number(double value) {
+std::string coordinate(double value) {
   std::string text = fixed(value, 1);
   if (text.ends_with(".0")) text.resize(text.size() - 2);
   return text;
 }
 
-std::string pair(const Place& place) { return number(place.x()) + " " + number(place.y()); }
+std::string pair(const Place& place) { return coordinate(place.x()) + " " + coordinate(place.y()); }
 
 std::string attribute(const std::string& name, double value) {
-  return " " + name + "=\"" + number(value) + "\"";
+  return " " + name + "=\"" + coordinate(value) + "\"";
 }
 
 std::string style_of(const std::string& style) { return " class=\"" + style + "\"/>\n"; }
@@ -32,8 +32,8 @@ std::string points_of(const std::vector<Place>& places) {
 }  // namespace
 
 Svg::Svg(double width, double height, const std::string& label)
-    : head_("<svg viewBox=\"0 0 " + number(width) + " " + number(height) + "\" role=\"img\">\n" +
-            "<title>" + escaped(label) + "</title>\n") {}
+    : head_("<svg viewBox=\"0 0 " + coordinate(width) + " " + coordinate(height) +
+            "\" role=\"img\">\n" + "<title>" + escaped(label) + "</title>\n") {}
 
 void Svg::line(const Place& from, const Place& to, const std::string& style) {
   body_ += "<line" + attribute("x1", from.x()) + attribute("y1", from.y()) +
@@ -61,7 +61,7 @@ void Svg::circle(const Place& centre, double radius, const std::string& style) {
 void Svg::ellipse(const Place& centre, const Eigen::Vector2d& radii, double turn_deg,
                   const std::string& style) {
   body_ += "<ellipse" + attribute("rx", radii.x()) + attribute("ry", radii.y()) +
-           " transform=\"translate(" + pair(centre) + ") rotate(" + number(turn_deg) + ")\"" +
+           " transform=\"translate(" + pair(centre) + ") rotate(" + coordinate(turn_deg) + ")\"" +
            style_of(style);
 }
 

@@ -67,7 +67,7 @@ std::vector<Intake> take_in_all(const std::vector<PhotoFile>& files, int threads
 }
 
 // "'a.jpg', 'b.jpg' and 3 more"
-std::string list_of(const std::vector<std::string>& names) {
+std::string photos_named(const std::vector<std::string>& names) {
   constexpr std::size_t kNamed = 5;
   std::string list;
   for (std::size_t i = 0; i < std::min(kNamed, names.size()); ++i) {
@@ -91,7 +91,7 @@ Status check_sizes(const std::vector<PhotoRecord>& photos) {
   };
   // As many of one as of the other: then the second is named.
   const auto odd = rarest == usual ? std::prev(by_size.end()) : rarest;
-  return Error{"The photos differ in size: " + list_of(odd->second) +
+  return Error{"The photos differ in size: " + photos_named(odd->second) +
                (odd->second.size() == 1 ? " has " : " have ") + text(odd->first) +
                " pixels, others " + text(rarest == usual ? by_size.begin()->first : usual->first) +
                "; measure photos of one camera and one setting at a time."};

@@ -10,18 +10,19 @@ namespace {
 
 // A ray (x, y, -1) and how x, y move with pixel and camera: the inverse of the projection's
 // derivatives (eq. 4 maps the other way than a lens does).
-struct Ray {
+struct ImageRay {
   Eigen::Vector3d direction;
   Eigen::Matrix2d by_pixel;
   Eigen::Matrix<double, 2, geometry::kInteriorCount> by_interior;
 };
 
-std::optional<Ray> ray_of(const geometry::InteriorVector& interior, const Eigen::Vector2d& pixel) {
+std::optional<ImageRay> ray_of(const geometry::InteriorVector& interior,
+                               const Eigen::Vector2d& pixel) {
   const auto direction = geometry::ray_in_photo(interior, pixel);
   if (!direction) return std::nullopt;
   const auto projection = geometry::project_with_derivatives(interior, *direction);
   if (!projection) return std::nullopt;
-  Ray ray;
+  ImageRay ray;
   ray.direction = *direction;
   ray.by_pixel = projection->by_point.leftCols<2>().inverse();
   ray.by_interior = -ray.by_pixel * projection->by_interior;

@@ -12,9 +12,9 @@
 namespace plumbline::orient::paper {
 namespace {
 
-constexpr int kMaxIterations = 100;
-constexpr double kTolerance = 1e-12;
-constexpr double kMostLambda = 1e10;
+constexpr int kMaxIntersections = 100;
+constexpr double kIntersectionTolerance = 1e-12;
+constexpr double kMostDamping = 1e10;
 // Of the plane's height below photo 1, as eq. 1 has it.
 constexpr double kHeightShare = 0.1;
 
@@ -30,7 +30,7 @@ struct Block {
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
 };
 
-struct Linear {
+struct IntersectionEquations {
   std::vector<Block> blocks;
   Eigen::Matrix3d plane = Eigen::Matrix3d::Zero();
   Eigen::Vector3d plane_gradient = Eigen::Vector3d::Zero();
@@ -70,8 +70,8 @@ class Intersector {
     return ground;
   }
 
-  Linear linearise(const Ground& ground) const {
-    Linear out;
+  IntersectionEquations linearise(const Ground& ground) const {
+    IntersectionEquations out;
     out.blocks.resize(ground.points.size());
     for (const Observation& o : problem_.observations) add_ray(ground, o, out);
     for (std::size_t p = 0; p < ground.points.size(); ++p) add_flatness(ground, p, out);
@@ -86,7 +86,7 @@ class Intersector {
   }
 
   // The points are eliminated (Schur complement over 3 x 3 blocks).
-  static Ground moved(const Ground& from, const Linear& linear, double lambda) {
+  static Ground moved(const Ground& from, const IntersectionEquations& linear, double lambda) {
     Eigen::Matrix3d reduced = linear.plane;
     reduced.diagonal() *= 1 + lambda;
     Eigen::Vector3d gradient = linear.plane_gradient;
@@ -110,7 +110,7 @@ class Intersector {
 
  private:
   // Eq. 5: the photo sees R' (P - O).
-  void add_ray(const Ground& ground, const Observation& o, Linear& out) const {
+  void add_ray(const Ground& ground, const Observation& o, IntersectionEquations& out) const {
     const geometry::Pose& pose = relative_.poses[at(o.photo)];
     const Eigen::Matrix3d photo_from_ground = pose.ground_from_photo.transpose();
     const auto seen = geometry::project_with_derivatives(
@@ -130,7 +130,7 @@ class Intersector {
     ++out.rays;
   }
 
-  void add_flatness(const Ground& ground, std::size_t p, Linear& out) const {
+  void add_flatness(const Ground& ground, std::size_t p, IntersectionEquations& out) const {
     const Eigen::Vector3d& point = ground.points[p];
     const Eigen::Vector3d by_point(-ground.plane[1], -ground.plane[2], 1);
     const Eigen::Vector3d by_plane(-1, -point.x(), -point.y());
@@ -161,16 +161,17 @@ Result<Intersection> intersect(const Problem& problem, const Heights& heights,
   const Intersector intersector(problem, heights, relative, priors);
   auto ground = intersector.start();
   if (!ground) return behind;
-  Linear here = intersector.linearise(*ground);
+  IntersectionEquations here = intersector.linearise(*ground);
   if (!here.whole) return behind;
   Intersection out;
   double lambda = 1e-6;
-  while (!out.converged && out.iterations < kMaxIterations && lambda < kMostLambda) {
+  while (!out.converged && out.iterations < kMaxIntersections && lambda < kMostDamping) {
     ++out.iterations;
     const Ground trial = Intersector::moved(*ground, here, lambda);
-    const Linear there = intersector.linearise(trial);
+    const IntersectionEquations there = intersector.linearise(trial);
     const bool better = there.whole && there.cost < here.cost;
-    out.converged = there.whole && std::abs(here.cost - there.cost) <= kTolerance * (1 + here.cost);
+    out.converged =
+        there.whole && std::abs(here.cost - there.cost) <= kIntersectionTolerance * (1 + here.cost);
     lambda = better ? lambda / 8 : 8 * lambda;
     if (!better) continue;
     ground = trial;

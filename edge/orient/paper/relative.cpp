@@ -20,8 +20,8 @@ using geometry::kInteriorCount;
 
 constexpr int kOfPhoto = 5;  // rotation increment 3, B_x, B_y
 constexpr int kLeastConditions = 5;
-constexpr int kMaxIterations = 500;
-constexpr double kTolerance = 1e-10;
+constexpr int kMaxRelativeSteps = 500;
+constexpr double kRelativeTolerance = 1e-10;
 constexpr double kMostLambda = 1e10;
 
 struct Pair {
@@ -34,7 +34,7 @@ struct Unknowns {
   std::vector<geometry::Pose> poses;  // by pair
 };
 
-struct Linear {
+struct RelativeEquations {
   Eigen::MatrixXd normal;
   Eigen::VectorXd gradient;
   double cost = 0;
@@ -76,8 +76,8 @@ class Orientation {
         heights_(heights),
         tilt_rad_(std::numbers::sqrt2 * priors.tilt_deg * kRadPerDeg) {}
 
-  Linear linearise(const Unknowns& at_u) const {
-    Linear out;
+  RelativeEquations linearise(const Unknowns& at_u) const {
+    RelativeEquations out;
     const auto size = static_cast<Eigen::Index>(kInteriorCount + kOfPhoto * pairs_.size());
     out.normal.setZero(size, size);
     out.gradient.setZero(size);
@@ -104,7 +104,7 @@ class Orientation {
     return kInteriorCount + kOfPhoto * static_cast<Eigen::Index>(pair);
   }
 
-  void add_pair(const Unknowns& u, std::size_t k, Linear& out) const {
+  void add_pair(const Unknowns& u, std::size_t k, RelativeEquations& out) const {
     for (const PairObservation& seen : pairs_[k].seen) {
       const auto c = coplanarity(u.interior, u.poses[k], seen);
       if (!c) {
@@ -122,14 +122,14 @@ class Orientation {
     }
   }
 
-  static void add_prior(Linear& out, Eigen::Index i, double residual, double sigma) {
+  static void add_prior(RelativeEquations& out, Eigen::Index i, double residual, double sigma) {
     out.normal(i, i) += 1 / (sigma * sigma);
     out.gradient[i] += residual / (sigma * sigma);
     out.cost += residual * residual / (sigma * sigma);
   }
 
   // A parameter held fixed keeps its value: an unknown without derivatives.
-  void add_camera(const Unknowns& u, Linear& out) const {
+  void add_camera(const Unknowns& u, RelativeEquations& out) const {
     for (int i = 0; i < kInteriorCount; ++i) {
       if (camera_.sigma[i] > 0) {
         add_prior(out, i, u.interior[i] - camera_.interior[i], camera_.sigma[i]);
@@ -143,7 +143,7 @@ class Orientation {
   }
 
   // Tilt against photo 1, and the climb against its axis.
-  void add_photo(const Unknowns& u, std::size_t k, Linear& out) const {
+  void add_photo(const Unknowns& u, std::size_t k, RelativeEquations& out) const {
     const auto angles = geometry::angles_of(u.poses[k].ground_from_photo);
     const Eigen::Matrix3d by = geometry::angles_by_ground_increment(angles);
     const Eigen::Vector2d tilt(angles.omega_rad, angles.phi_rad);
@@ -196,18 +196,18 @@ struct Settled {
 // Levenberg 1944, Marquardt 1963.
 Settled minimise(const Orientation& orientation, const Unknowns& start) {
   Settled out{start, 0, 0, false};
-  Linear here = orientation.linearise(start);
+  RelativeEquations here = orientation.linearise(start);
   double lambda = 1e-3;
-  while (!out.converged && out.iterations < kMaxIterations && lambda < kMostLambda) {
+  while (!out.converged && out.iterations < kMaxRelativeSteps && lambda < kMostLambda) {
     ++out.iterations;
     Eigen::MatrixXd damped = here.normal;
     damped.diagonal() *= 1 + lambda;
     const Eigen::VectorXd step = -damped.ldlt().solve(here.gradient);
     const Unknowns trial = orientation.moved(out.unknowns, step);
-    const Linear there = orientation.linearise(trial);
+    const RelativeEquations there = orientation.linearise(trial);
     const bool better = there.whole && there.cost < here.cost;
     const double change = std::abs(here.cost - there.cost);
-    out.converged = there.whole && change <= kTolerance * (1 + here.cost);
+    out.converged = there.whole && change <= kRelativeTolerance * (1 + here.cost);
     lambda = better ? std::max(lambda / 8, 1e-12) : 8 * lambda;
     if (!better) continue;
     out.unknowns = trial;
@@ -245,7 +245,8 @@ Result<RelativeOrientation> relative_orientation(const Problem& problem,
     out.poses[at(pairs[k].photo)] = settled.unknowns.poses[k];
     out.conditions += static_cast<int>(pairs[k].seen.size());
   }
-  out.unknowns = static_cast<int>((camera.sigma.array() > 0).count() + kOfPhoto * pairs.size());
+  out.unknowns = static_cast<int>((camera.sigma.array() > 0).count()) +
+                 kOfPhoto * static_cast<int>(pairs.size());
   out.rms_px = std::sqrt(settled.sampson_squares / std::max(out.conditions, 1));
   out.iterations = settled.iterations;
   out.converged = settled.converged;

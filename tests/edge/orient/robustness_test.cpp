@@ -108,7 +108,7 @@ TEST(Adjust, RefusesNumbersThatAreNone) {
 
 // A point near the foot once ended in the lower camera, where each of its rays fits.
 TEST(TwoPhotoClimb, LeavesNoPointInACamera) {
-  for (const std::uint64_t seed : {100774, 100181, 1, 2, 3}) {
+  for (const std::uint64_t seed : {100774u, 100181u, 1u, 2u, 3u}) {
     FlightPlan plan;
     plan.heights_m = {70, 90};
     plan.side_step_m = 0;
@@ -127,7 +127,7 @@ TEST(TwoPhotoClimb, LeavesNoPointInACamera) {
 // At 1 px the free network of five photos may lie on the wrong side of the circle, without any
 // station being far off: the cost alone is in doubt.
 TEST(NoisyClimb, FindsItsSideOfTheCircle) {
-  for (const std::uint64_t seed : {100060, 100851, 100894, 100336, 1, 2}) {
+  for (const std::uint64_t seed : {100060u, 100851u, 100894u, 100336u, 1u, 2u}) {
     FlightPlan plan;
     plan.heights_m = {70, 75, 80, 85, 90};
     plan.side_step_m = 5;

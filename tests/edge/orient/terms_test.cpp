@@ -19,7 +19,7 @@ using testing::nudged;
 using testing::SmallNetwork;
 
 // A step that moves angles, metres and pixels alike well above rounding.
-double step_of(int column) {
+double small_step_of(int column) {
   const bool small = column > geometry::kPrincipalV && column < kShared;
   return small ? 1e-6 : 1e-5;
 }
@@ -28,7 +28,7 @@ void expect_true_jacobians(const SmallNetwork& small) {
   const auto terms = linearised_terms(small.network, small.state, small.datum, small.options);
   for (int column = 0; column < small.network.layout.columns(); ++column) {
     if (column < kShared && small.network.shared_mask[column] == 0) continue;  // held fixed
-    const double h = step_of(column);
+    const double h = small_step_of(column);
     const auto after = linearised_terms(
         small.network, nudged(small.network, small.state, column, h), small.datum, small.options);
     const auto before = linearised_terms(
