@@ -5,6 +5,8 @@ set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+# Where several files are compiled as one (scripts/test, with CMAKE_UNITY_BUILD), so many.
+set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
 
 add_library(plumbline_options INTERFACE)
 target_compile_options(plumbline_options INTERFACE -Wall -Wextra -Wconversion -Werror)
@@ -21,6 +23,10 @@ if(PLUMBLINE_SANITIZE)
   target_compile_options(plumbline_options INTERFACE -fsanitize=address,undefined
                                                     -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(plumbline_options INTERFACE -fsanitize=address,undefined)
+  if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    target_compile_options(plumbline_options INTERFACE
+      -fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/cmake/sanitize-ignore.txt)
+  endif()
 endif()
 
 if(PLUMBLINE_FUZZ)
@@ -43,17 +49,21 @@ function(plumbline_module NAME)
   add_library(plumbline::${NAME} ALIAS plumbline_${NAME})
 endfunction()
 
-# plumbline_test(NAME [LINK library...]) makes one GoogleTest program from the folder's *_test.cpp.
+# plumbline_test(NAME [ALONE] [LINK library...]) makes one GoogleTest program from the folder's
+# *_test.cpp. ALONE: its files are never compiled as one, for their helpers share names.
 function(plumbline_test NAME)
-  cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+  cmake_parse_arguments(ARG "ALONE" "" "LINK" ${ARGN})
   file(GLOB SOURCES CONFIGURE_DEPENDS *.cpp)
   if(NOT SOURCES)
     return()
   endif()
   add_executable(${NAME}_test ${SOURCES})
+  if(ARG_ALONE)
+    set_target_properties(${NAME}_test PROPERTIES UNITY_BUILD OFF)
+  endif()
   target_link_libraries(${NAME}_test PRIVATE plumbline_options ${ARG_LINK} GTest::gtest GTest::gmock
                                              GTest::gtest_main)
-  if(PLUMBLINE_SANITIZE)
+  if(PLUMBLINE_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # GCC 12 takes std::regex's own state for uninitialised where sanitizers instrument it.
     target_compile_options(${NAME}_test PRIVATE -Wno-maybe-uninitialized)
   endif()
