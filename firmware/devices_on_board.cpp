@@ -78,29 +78,39 @@ ReceiverResult receiver_on_port(const std::string& address, const Clock& clock) 
 
 using PilotResult = Result<std::unique_ptr<PilotLink>>;
 
-PilotResult pilot_on(std::unique_ptr<DuplexStream> stream, const Clock& clock,
-                     mavlink_driver::StreamPilotLinkOptions options = {}) {
-  return {std::make_unique<mavlink_driver::StreamPilotLink>(
-      std::move(stream), mavlink::make_conversation, clock, options)};
-}
+// How an autopilot's link is made, once its address is understood.
+struct PilotMaking {
+  int system_id;
+  const Clock& clock;
 
-PilotResult pilot_on_network(const std::string& address, const Clock& clock) {
+  PilotResult on(std::unique_ptr<DuplexStream> stream,
+                 mavlink_driver::StreamPilotLinkOptions options = {}) const {
+    const auto make_conversation = [id = system_id](PilotProtocol::Sink sink) {
+      return std::make_unique<mavlink::Conversation>(std::move(sink),
+                                                     mavlink::ConversationOptions{.system_id = id});
+    };
+    return {std::make_unique<mavlink_driver::StreamPilotLink>(std::move(stream), make_conversation,
+                                                              clock, options)};
+  }
+};
+
+PilotResult pilot_on_network(const std::string& address, const PilotMaking& making) {
   using Role = posix::UdpStream::Role;
   const Result<HostAndPort> place = host_and_port(address);
   if (!place) return place.error();
   const Role role = place->host == "0.0.0.0" ? Role::kListens : Role::kSpeaks;
-  return pilot_on(std::make_unique<posix::UdpStream>(role, place->host, place->port), clock);
+  return making.on(std::make_unique<posix::UdpStream>(role, place->host, place->port));
 }
 
-PilotResult pilot_on_port(const std::string& address, const Clock& clock) {
+PilotResult pilot_on_port(const std::string& address, const PilotMaking& making) {
   const int baud = baud_of(address);
   auto port = std::make_unique<posix::SerialPort>(address.substr(0, address.find('@')));
   if (baud < 0) {
     return Error{"'" + address + "' names no speed after '@': write " + port->name() + "@57600."};
   }
-  if (baud == 0) return pilot_on(std::move(port), clock);
+  if (baud == 0) return making.on(std::move(port));
   if (const Status speed = port->set_speed(baud); !speed) return speed.error();
-  return pilot_on(std::move(port), clock, {.baud = baud});
+  return making.on(std::move(port), {.baud = baud});
 }
 
 constexpr std::string_view kLibcamera = "libcamera:";
@@ -160,9 +170,10 @@ Result<std::unique_ptr<TriggerLine>> make_pulse_per_second(const std::string& ad
   return gpio::make_trigger_line(options, clock);
 }
 
-PilotResult make_pilot_link(const std::string& address, const Clock& clock) {
-  if (address.starts_with("udp://")) return pilot_on_network(address, clock);
-  if (address.starts_with("/")) return pilot_on_port(address, clock);
+PilotResult make_pilot_link(const std::string& address, int system_id, const Clock& clock) {
+  const PilotMaking making{system_id, clock};
+  if (address.starts_with("udp://")) return pilot_on_network(address, making);
+  if (address.starts_with("/")) return pilot_on_port(address, making);
   return Error{"'" + address +
                "' is no address of an autopilot: write a port (/dev/ttyAMA1@57600), "
                "udp://0.0.0.0:14550 or udp://HOST:PORT."};

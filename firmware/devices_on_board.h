@@ -29,9 +29,10 @@ Result<std::unique_ptr<GnssReceiver>> make_receiver(const std::string& address, 
 
 // "/dev/ttyAMA1@921600" (57600 baud where no speed is said), "udp://0.0.0.0:14550" (waits to be
 // spoken to at that port), or "udp://HOST:PORT" (speaks first); by UDP it answers to whoever spoke
-// last. Fails where the address is none; whether an autopilot is there is start()'s business.
-// `clock` outlives the link.
-Result<std::unique_ptr<PilotLink>> make_pilot_link(const std::string& address, const Clock& clock);
+// last. `system_id`: the vehicle's, 1 to 255, borne until it has been heard. Fails where the
+// address is none; whether an autopilot is there is start()'s business. `clock` outlives the link.
+Result<std::unique_ptr<PilotLink>> make_pilot_link(const std::string& address, int system_id,
+                                                   const Clock& clock);
 
 std::vector<SerialPortInfo> list_serial_ports();
 

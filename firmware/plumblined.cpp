@@ -70,7 +70,8 @@ Status make_devices(const config::Config& config, Devices& devices) {
     made = put(make_camera(config.camera.id, *devices.clock), devices.camera);
   if (made) made = make_lines(config, devices);
   if (made && !config.pilot.link.empty()) {
-    made = put(make_pilot_link(config.pilot.link, *devices.clock), devices.pilot);
+    made = put(make_pilot_link(config.pilot.link, config.pilot.system_id, *devices.clock),
+               devices.pilot);
   }
   return made;
 }

@@ -73,6 +73,7 @@ struct InputText {
     return Line(now, "resumed")
         .with("ground_m", r.ground_height_m)
         .count("photos", r.photos)
+        .flag("flying", r.flying)
         .done();
   }
   std::string operator()(const capture::FixHeard& heard) const {
