@@ -51,7 +51,7 @@ struct PilotConfig {
 
 struct RecordingConfig {
   std::string folder = "/var/lib/plumbline/flights";
-  int keep_free_mb = 500;      // less is refused before arming; 1 MB is 1,000,000 bytes
+  int keep_free_mb = 500;      // photos are not to need it; 1 MB is 1,000,000 bytes
   bool clean_results = false;  // the oldest results, never photos, may go to make room
 };
 

@@ -12,7 +12,8 @@ std::vector<Key> recording_keys() {
   return {
       text({"recording", "folder", "Flights are recorded here, each in a folder of its own."},
            kPath, is_absolute_path, PLUMBLINE_FIELD(recording.folder)),
-      number({"recording", "keep_free_mb", "With less room than this a flight is not begun."},
+      number({"recording", "keep_free_mb",
+              "Room that photos are not to need: with too little besides, it is not ready."},
              kMegabytes, {1, 10'000'000}, PLUMBLINE_FIELD(recording.keep_free_mb)),
       yes_or_no({"recording", "clean_results",
                  "The oldest results (never photos, never journals) are removed to make room."},

@@ -46,8 +46,9 @@ flight::SessionOptions session_options(const config::Config& config, const std::
   return options;
 }
 
-Daemon::Daemon(const config::Config& config, SingleInstance instance)
+Daemon::Daemon(const config::Config& config, flight::Devices devices, SingleInstance instance)
     : config_(config),
+      devices_(devices),
       instance_(std::move(instance)),
       board_(config.capture.release.release == capture::Release::kNearestFrame) {}
 
@@ -61,7 +62,7 @@ Result<std::unique_ptr<Daemon>> Daemon::start(const config::Config& config, cons
   if (!instance) return instance.error();
   const auto camera = camera_of(config);
   if (!camera) return camera.error();
-  std::unique_ptr<Daemon> daemon(new Daemon(config, std::move(*instance)));
+  std::unique_ptr<Daemon> daemon(new Daemon(config, devices, std::move(*instance)));
   auto server = StatusServer::start(daemon->board_, config.status.socket, config.status.file);
   if (!server) return server.error();
   daemon->server_ = std::move(*server);
@@ -92,7 +93,7 @@ Result<std::unique_ptr<Daemon>> Daemon::start(const config::Config& config, cons
   daemon->session_ =
       std::make_unique<flight::Session>(session_options(config, text), devices, daemon->events());
   if (const Status started = daemon->session_->start(); !started) return started.error();
-  daemon->watch_space(devices.storage);
+  daemon->look_at_space();
   return daemon;
 }
 
@@ -110,20 +111,27 @@ flight::SessionEvents Daemon::events() {
   };
   events.ended = [this](const std::string& folder) {
     board_.ended(folder);
+    look_at_space();
     if (measurer_) measurer_->ended(folder);
   };
   return events;
 }
 
 // In photos of a size that a JPEG of such a frame may have: 3 bits a pixel.
-void Daemon::watch_space(Storage& storage) {
-  const auto free = storage.free_bytes();
+void Daemon::look_at_space() {
+  const auto free = devices_.storage.free_bytes();
   if (!free) return;
   const double pixels = static_cast<double>(config_.camera.options.width_px.value_or(4056)) *
                         config_.camera.options.height_px.value_or(3040);
   const double kept = 1e6 * config_.recording.keep_free_mb;
-  const double photos = (static_cast<double>(*free) - kept) / (pixels * 3 / 8);
-  board_.free_photos(static_cast<std::int64_t>(std::max(0.0, photos)));
+  const double room = std::max(0.0, static_cast<double>(*free) - kept) / (pixels * 3 / 8);
+  const auto photos = static_cast<std::int64_t>(room);
+  const capture::CapturePlan& plan = config_.capture.plan;
+  const auto planned = static_cast<std::int64_t>(plan.heights_m.size()) + (plan.aside_m ? 1 : 0);
+  board_.space(photos, planned);
+  if (photos >= planned || devices_.pilot == nullptr) return;
+  devices_.pilot->say(PilotSeverity::kWarning, "Disk: room for " + std::to_string(photos) + " of " +
+                                                   std::to_string(planned) + " photos");
 }
 
 void Daemon::run() {

@@ -33,12 +33,13 @@ class Daemon {
   const StatusBoard& board() const { return board_; }
 
  private:
-  Daemon(const config::Config& config, SingleInstance instance);
+  Daemon(const config::Config& config, flight::Devices devices, SingleInstance instance);
 
   flight::SessionEvents events();
-  void watch_space(Storage& storage);
+  void look_at_space();
 
   config::Config config_;
+  flight::Devices devices_;
   SingleInstance instance_;
   StatusBoard board_;
   std::unique_ptr<StatusServer> server_;

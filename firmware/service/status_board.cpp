@@ -96,10 +96,11 @@ void StatusBoard::measured(const std::string& sentence) {
   changed();
 }
 
-void StatusBoard::free_photos(std::int64_t photos) {
+void StatusBoard::space(std::int64_t free_photos, std::int64_t planned_photos) {
   const std::lock_guard lock(mutex_);
-  if (free_photos_ != photos) changed();
-  free_photos_ = photos;
+  if (free_photos_ != free_photos || planned_photos_ != planned_photos) changed();
+  free_photos_ = free_photos;
+  planned_photos_ = planned_photos;
 }
 
 std::uint64_t StatusBoard::version() const {
@@ -130,6 +131,11 @@ std::string StatusBoard::sentence_locked() const {
              (!fix_ || fix_->quality == FixQuality::kNone ? "a position" : "the camera") + ".";
       break;
     case capture::Phase::kReady:
+      if (lacks_space()) {
+        text = "Not ready: the disk has room for " + std::to_string(*free_photos_) + " photos of " +
+               std::to_string(planned_photos_) + "; move old flights to another disk.";
+        break;
+      }
       text = "Ready: " + fix + "; takes off at 3 m of rise.";
       if (free_photos_) text += " " + std::to_string(*free_photos_) + " photos fit on the disk.";
       break;
@@ -173,7 +179,10 @@ std::string StatusBoard::json() const {
   if (fix_ && fix_->height_ellipsoidal_m && ground_height_m_) {
     json["height_above_take_off_m"] = *fix_->height_ellipsoidal_m - *ground_height_m_;
   }
-  if (free_photos_) json["free_photos"] = *free_photos_;
+  if (free_photos_) {
+    json["free_photos"] = *free_photos_;
+    json["planned_photos"] = planned_photos_;
+  }
   for (const auto& [source, message] : last_said_) {
     if (message.severity != record::Severity::kInfo) json["trouble"][source] = message.sentence;
   }

@@ -27,7 +27,10 @@ class StatusBoard {
   void ended(const std::string& folder);
   void advised(const std::string& sentence);
   void measured(const std::string& sentence);
-  void free_photos(std::int64_t photos);
+  // How many photos fit on the disk, of how many that a flight as planned takes. With fewer it is
+  // not ready, and says so; a drone that takes off all the same is photographed while there is
+  // room.
+  void space(std::int64_t free_photos, std::int64_t planned_photos);
 
   std::uint64_t version() const;  // counts what changed
   std::string json() const;       // one line
@@ -35,6 +38,7 @@ class StatusBoard {
 
  private:
   std::string sentence_locked() const;
+  bool lacks_space() const { return free_photos_ && *free_photos_ < planned_photos_; }
   void changed() { ++version_; }
 
   const bool needs_frames_;
@@ -49,6 +53,7 @@ class StatusBoard {
   std::map<std::string, record::Message> last_said_;  // by source
   std::string flight_, last_flight_, advice_, result_;
   std::optional<std::int64_t> free_photos_;
+  std::int64_t planned_photos_ = 0;
 };
 
 }  // namespace plumbline::service

@@ -36,6 +36,18 @@ TEST(StatusBoard, SaysInFlightThatThereIsNoCamera) {
   EXPECT_THAT(of_pulses.sentence(), Not(HasSubstr("No camera")));
 }
 
+TEST(StatusBoard, IsNotReadyWhereTheDiskHasNoRoomForTheFlight) {
+  StatusBoard board;
+  board.decided(phase(capture::Phase::kReady));
+  board.space(14, 14);
+  EXPECT_THAT(board.sentence(), HasSubstr("Ready: "));
+  EXPECT_THAT(board.sentence(), HasSubstr("14 photos fit"));
+  board.space(13, 14);
+  EXPECT_THAT(board.sentence(), HasSubstr("Not ready: the disk has room for 13 photos of 14"));
+  EXPECT_THAT(board.sentence(), HasSubstr("move old flights"));
+  EXPECT_EQ(nlohmann::json::parse(board.json())["planned_photos"], 14);
+}
+
 TEST(StatusBoard, CountsThePhotosOfTheFlightAndShowsThemAsJson) {
   StatusBoard board;
   board.decided(phase(capture::Phase::kFlying));
