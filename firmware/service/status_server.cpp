@@ -81,8 +81,8 @@ void StatusServer::run() {
     if (version == told) continue;
     told = version;
     const std::string line = board_.json() + '\n';
+    write_file(line);  // first: who was told a line finds it there
     tell(line);
-    write_file(line);
   }
 }
 

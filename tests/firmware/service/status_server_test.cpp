@@ -75,8 +75,11 @@ TEST_F(StatusShown, IsALineAtOnceAndOneAfterEachChange) {
   board_.stored(1, "0001");
   nlohmann::json line = client.next();
   while (line.is_object() && line["photos_stored"] != 1) line = client.next();
+  ASSERT_TRUE(line.is_object());
   EXPECT_EQ(line["flight"], "0001");
-  EXPECT_EQ(in_file()["photos_stored"], 1);
+  const nlohmann::json file = in_file();
+  ASSERT_TRUE(file.is_object());
+  EXPECT_EQ(file["photos_stored"], 1);
 }
 
 TEST_F(StatusShown, IsTheSameForManyWhateverOneOfThemSays) {
