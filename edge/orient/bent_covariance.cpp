@@ -208,6 +208,7 @@ NetworkCovariance bent_covariance(const Network& network, const State& state, co
       if (const auto twist = explorer.twist(arcs[i], arcs[j])) bent.bend(1, *twist);
     }
   }
+  bent.add_next_order(linear);
   bent.turn_own_parts(network);
   return bent;
 }

@@ -2,6 +2,7 @@
 #include "edge/orient/covariance.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -158,6 +159,27 @@ void NetworkCovariance::turn_own_parts(const Network& network) {
     }
     if (rays > 0) points_[p].own += turned(points_[p].own, turn / rays);
   }
+}
+
+void NetworkCovariance::add_next_order(const NetworkCovariance& first) {
+  constexpr double kRounding = 1e-10;
+  const Eigen::MatrixXd& before = first.common_;
+  std::vector<int> varied;
+  for (int i = 0; i < static_cast<int>(before.cols()); ++i) {
+    if (before(i, i) > 0 && common_(i, i) > 0) varied.push_back(i);
+  }
+  // In units of each column's own sigma, for metres, pixels and radians stand side by side.
+  const Eigen::VectorXd sigma = common_.diagonal()(varied).cwiseSqrt();
+  const Eigen::VectorXd per_sigma = sigma.cwiseInverse();
+  Eigen::MatrixXd whole = per_sigma.asDiagonal() * common_(varied, varied) * per_sigma.asDiagonal();
+  whole.diagonal().array() += kRounding;
+  const Eigen::MatrixXd linear =
+      per_sigma.asDiagonal() * before(varied, varied) * per_sigma.asDiagonal();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> axes(linear, whole);
+  if (axes.info() != Eigen::Success || !axes.eigenvalues().allFinite()) return;
+  const Eigen::VectorXd next = (1 - axes.eigenvalues().array()).max(0).square();
+  const Eigen::MatrixXd by = sigma.asDiagonal() * (whole * axes.eigenvectors());
+  common_(varied, varied) += by * next.asDiagonal() * by.transpose();
 }
 
 Eigen::MatrixXd NetworkCovariance::common_block(const std::vector<int>& rows,

@@ -63,6 +63,11 @@ class NetworkCovariance final : public PointCovariances {
   // the second moment of the product, E[(w x u)(w x u)'] of a turn w and an own error u.
   void turn_own_parts(const Network& network);
 
+  // Where this covariance of the columns C is beyond `first`, the one of first order C1, by what a
+  // series added to it, the term that was left off is taken to be to the last as that is to the
+  // whole: with C = C1 + D, adds D C^-1 D. Axes in which C is less than C1 stay as they are.
+  void add_next_order(const NetworkCovariance& first);
+
  private:
   bool set_common(const Network& network, const Eigen::MatrixXd& reduced);
   std::vector<int> by_group() const;

@@ -111,6 +111,28 @@ TEST(NetworkCovariance, GrowsByTheSquareOfWhatBendsIt) {
 }
 
 // The second moment of w x u by the axes of both ellipsoids, for independent w and u.
+// Twice the variance in some axes, of which half came of the second order: half of that half, a
+// quarter of the whole, is to come of the next. Half the variance in others: left alone.
+TEST(NetworkCovariance, AllowsForTheNextOrderAsTheLastWasToTheWhole) {
+  const testing::SmallNetwork small(5);
+  const auto terms = linearised_terms(small.network, small.state, small.datum, small.options);
+  const auto equations = normal_equations(small.network, small.state, 0, terms);
+  const auto linear = NetworkCovariance::of(small.network, equations);
+  ASSERT_TRUE(linear);
+  const Eigen::MatrixXd reduced = reduced_matrix(equations, 0);
+  for (const auto& [information, expected] :
+       {std::pair{0.5, 2.5}, std::pair{1.0, 1.0}, std::pair{2.0, 0.5}}) {
+    auto changed = linear->with_reduced(small.network, information * reduced);
+    ASSERT_TRUE(changed);
+    changed->add_next_order(*linear);
+    const Eigen::MatrixXd difference = changed->common() - expected * linear->common();
+    const Eigen::VectorXd sigma = linear->common().diagonal().cwiseSqrt();
+    EXPECT_LT((difference.array().abs() - 1e-6 * (sigma * sigma.transpose()).array()).maxCoeff(),
+              1e-12)
+        << information;
+  }
+}
+
 TEST(NetworkCovariance, TurnsThePointsOwnErrorsWithThePhotos) {
   testing::SmallNetwork small(5);
   const auto terms = linearised_terms(small.network, small.state, small.datum, small.options);
