@@ -19,7 +19,7 @@ endif()
 # The same recording gives the same result on every machine: no fused multiply-add by chance.
 target_compile_options(plumbline_options INTERFACE -ffp-contract=off)
 target_include_directories(plumbline_options INTERFACE ${PROJECT_SOURCE_DIR})
-if(PLUMBLINE_SANITIZE)
+if(PLUMBLINE_SANITIZE OR PLUMBLINE_FUZZ)
   target_compile_options(plumbline_options INTERFACE -fsanitize=address,undefined
                                                     -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(plumbline_options INTERFACE -fsanitize=address,undefined)
@@ -28,11 +28,8 @@ if(PLUMBLINE_SANITIZE)
       -fsanitize-ignorelist=${PROJECT_SOURCE_DIR}/cmake/sanitize-ignore.txt)
   endif()
 endif()
-
 if(PLUMBLINE_FUZZ)
-  set(FUZZ_FLAGS -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all)
-  target_compile_options(plumbline_options INTERFACE ${FUZZ_FLAGS})
-  target_link_options(plumbline_options INTERFACE -fsanitize=address,undefined)
+  target_compile_options(plumbline_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()
 
 # plumbline_module(NAME [LINK library...]) makes plumbline::NAME from the folder's *.cpp files.
@@ -50,9 +47,11 @@ function(plumbline_module NAME)
 endfunction()
 
 # plumbline_test(NAME [ALONE] [LINK library...]) makes one GoogleTest program from the folder's
-# *_test.cpp. ALONE: its files are never compiled as one, for their helpers share names.
+# *_test.cpp. ALONE: its files are never compiled as one, for their helpers share names. TOGETHER:
+# one process for all its tests, which share what takes long to make. EARLY: started before others,
+# for it takes so long that all would wait for it at the end.
 function(plumbline_test NAME)
-  cmake_parse_arguments(ARG "ALONE" "" "LINK" ${ARGN})
+  cmake_parse_arguments(ARG "ALONE;TOGETHER;EARLY" "" "LINK" ${ARGN})
   file(GLOB SOURCES CONFIGURE_DEPENDS *.cpp)
   if(NOT SOURCES)
     return()
@@ -63,15 +62,28 @@ function(plumbline_test NAME)
   endif()
   target_link_libraries(${NAME}_test PRIVATE plumbline_options ${ARG_LINK} GTest::gtest GTest::gmock
                                              GTest::gtest_main)
+  # For tests that leave to the release build what would take too long here.
+  target_compile_definitions(${NAME}_test PRIVATE
+                             PLUMBLINE_SANITIZED=$<BOOL:${PLUMBLINE_SANITIZE}>)
   if(PLUMBLINE_SANITIZE AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     # GCC 12 takes std::regex's own state for uninitialised where sanitizers instrument it.
     target_compile_options(${NAME}_test PRIVATE -Wno-maybe-uninitialized)
   endif()
   # What touches devices or their libraries, to be built and run by itself: ctest -L devices.
   set(LABELS "")
+  set(COST "")
+  if(ARG_EARLY)
+    set(COST COST 100)
+  endif()
   if(CMAKE_CURRENT_SOURCE_DIR MATCHES "/tests/(contract|drivers)")
     set(LABELS LABELS devices)
     add_dependencies(device_tests ${NAME}_test)
   endif()
-  gtest_discover_tests(${NAME}_test DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 900 ${LABELS})
+  if(ARG_TOGETHER)
+    add_test(NAME ${NAME}_test COMMAND ${NAME}_test)
+    set_tests_properties(${NAME}_test PROPERTIES TIMEOUT 900 ${LABELS} ${COST})
+  else()
+    gtest_discover_tests(${NAME}_test DISCOVERY_TIMEOUT 60
+                         PROPERTIES TIMEOUT 900 ${LABELS} ${COST})
+  endif()
 endfunction()

@@ -24,11 +24,7 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using std::chrono::seconds;
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr int kMoments = 100;  // sanitizers are some ten times slower
-#else
-constexpr int kMoments = 2000;
-#endif
+constexpr int kMoments = PLUMBLINE_SANITIZED ? 100 : 2000;  // some ten times slower there
 
 constexpr double kHeights_m[] = {10, 13, 16};
 // From power on to the first decisions: fixes for a clock, a camera that streams; and where the
