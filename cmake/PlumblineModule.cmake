@@ -62,6 +62,8 @@ function(plumbline_test NAME)
   endif()
   target_link_libraries(${NAME}_test PRIVATE plumbline_options ${ARG_LINK} GTest::gtest GTest::gmock
                                              GTest::gtest_main)
+  # What is tested keeps its optimisation; the tests themselves compile in two thirds of the time.
+  target_compile_options(${NAME}_test PRIVATE $<$<CONFIG:Release>:-O1>)
   # For tests that leave to the release build what would take too long here.
   target_compile_definitions(${NAME}_test PRIVATE
                              PLUMBLINE_SANITIZED=$<BOOL:${PLUMBLINE_SANITIZE}>)
