@@ -73,23 +73,24 @@ StatusServer::~StatusServer() {
 
 void StatusServer::run() {
   std::uint64_t told = ~std::uint64_t{0};
+  std::string line;
   while (!stopping_) {
     pollfd waiting{listener_, POLLIN, 0};
     ::poll(&waiting, listener_ >= 0 ? 1 : 0, kLookEvery_ms);
-    if ((waiting.revents & POLLIN) != 0) admit();
     const std::uint64_t version = board_.version();
-    if (version == told) continue;
-    told = version;
-    const std::string line = board_.json() + '\n';
-    write_file(line);  // first: who was told a line finds it there
-    tell(line);
+    if (version != told) {
+      told = version;
+      line = board_.json() + '\n';
+      write_file(line);  // first: who is told a line finds it there
+      tell(line);
+    }
+    if ((waiting.revents & POLLIN) != 0) admit(line);
   }
 }
 
-void StatusServer::admit() {
+void StatusServer::admit(const std::string& line) {
   const int client = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
   if (client < 0) return;
-  const std::string line = board_.json() + '\n';
   const bool taken =
       ::send(client, line.data(), line.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(line.size());
   if (taken && clients_.size() < kMostClients) {

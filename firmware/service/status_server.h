@@ -26,7 +26,7 @@ class StatusServer {
   StatusServer(const StatusBoard& board, int listener, std::string socket_path,
                std::string file_path);
   void run();
-  void admit();
+  void admit(const std::string& line);
   void tell(const std::string& line);
   void write_file(const std::string& line) const;
 

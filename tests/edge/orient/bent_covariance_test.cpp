@@ -110,9 +110,8 @@ TEST(NetworkCovariance, GrowsByTheSquareOfWhatBendsIt) {
       1e-9 * expected.norm());
 }
 
-// The second moment of w x u by the axes of both ellipsoids, for independent w and u.
-// Twice the variance in some axes, of which half came of the second order: half of that half, a
-// quarter of the whole, is to come of the next. Half the variance in others: left alone.
+// Twice the variance, of which half came of the second order: half of that half, a quarter of the
+// whole, is to come of the next. The same variance, or half of it: left alone.
 TEST(NetworkCovariance, AllowsForTheNextOrderAsTheLastWasToTheWhole) {
   const testing::SmallNetwork small(5);
   const auto terms = linearised_terms(small.network, small.state, small.datum, small.options);
@@ -133,6 +132,7 @@ TEST(NetworkCovariance, AllowsForTheNextOrderAsTheLastWasToTheWhole) {
   }
 }
 
+// The second moment of w x u by the axes of both ellipsoids, for independent w and u.
 TEST(NetworkCovariance, TurnsThePointsOwnErrorsWithThePhotos) {
   testing::SmallNetwork small(5);
   const auto terms = linearised_terms(small.network, small.state, small.datum, small.options);
