@@ -3,6 +3,8 @@
 
 #include <zlib.h>
 
+#include <utility>
+
 #include "edge/record/packing.h"
 
 namespace plumbline::record {
@@ -11,7 +13,8 @@ namespace {
 constexpr std::string_view kMagic = "PLUMBJRN";
 constexpr std::size_t kHeadSize = 16;
 constexpr std::uint32_t kMark = 0x4C50'B5E7;  // of a frame: e7 b5 50 4c
-constexpr std::size_t kFrameSize = 24;        // before the payload
+constexpr std::string_view kMarkBegins = "\xE7\xB5\x50";
+constexpr std::size_t kFrameSize = 24;  // before the payload
 constexpr std::uint32_t kLongestPayload = 16u << 20;
 
 std::uint32_t crc_of(std::string_view a, std::string_view b = {}) {
@@ -20,6 +23,33 @@ std::uint32_t crc_of(std::string_view a, std::string_view b = {}) {
                  static_cast<uInt>(bytes.size()));
   };
   return static_cast<std::uint32_t>(fed(fed(crc32(0, nullptr, 0), a), b));
+}
+
+// No mark stands in a payload: whatever a device sends, be it another journal, a reader that looks
+// for the next entry cannot take a part of this one for it.
+void stuff(std::string& out, std::size_t payload_begin) {
+  std::size_t place = out.find(kMarkBegins, payload_begin);
+  while (place != std::string::npos) {
+    place += kMarkBegins.size();
+    out.insert(place, 1, '\0');
+    place = out.find(kMarkBegins, place);
+  }
+}
+
+// Nothing where the bytes were not written by stuff().
+std::optional<std::string> unstuffed(std::string_view bytes) {
+  std::string payload;
+  payload.reserve(bytes.size());
+  for (;;) {
+    const std::size_t place = bytes.find(kMarkBegins);
+    if (place == std::string_view::npos) break;
+    const std::size_t end = place + kMarkBegins.size();
+    if (end == bytes.size() || bytes[end] != '\0') return std::nullopt;
+    payload.append(bytes.substr(0, end));
+    bytes.remove_prefix(end + 1);
+  }
+  payload.append(bytes);
+  return payload;
 }
 
 }  // namespace
@@ -43,6 +73,7 @@ void append_entry(const Entry& entry, std::uint64_t sequence, std::string& out) 
   to.put(std::uint16_t{0});
   to.put(std::uint32_t{0});
   pack(entry, out);
+  stuff(out, begin + kFrameSize);
   const std::size_t length = out.size() - begin - kFrameSize;
   const auto write_at = [&](std::size_t place, std::uint32_t value) {
     for (std::size_t k = 0; k < 4; ++k) out[place + k] = static_cast<char>(value >> (8 * k));
@@ -85,8 +116,11 @@ std::optional<JournalReader::Found> JournalReader::frame_at(std::size_t place) c
   const auto reserved = from.get<std::uint16_t>();
   const auto crc = from.get<std::uint32_t>();
   if (length > kLongestPayload || length > bytes_.size() - place - kFrameSize) return std::nullopt;
-  found.payload = bytes_.substr(place + kFrameSize, length);
-  if (reserved != 0 || crc != crc_of(bytes_.substr(place, 20), found.payload)) return std::nullopt;
+  const auto stuffed = bytes_.substr(place + kFrameSize, length);
+  if (reserved != 0 || crc != crc_of(bytes_.substr(place, 20), stuffed)) return std::nullopt;
+  auto payload = unstuffed(stuffed);
+  if (!payload) return std::nullopt;
+  found.payload = std::move(*payload);
   found.begin = place;
   found.end = place + kFrameSize + length;
   return found;

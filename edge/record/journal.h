@@ -56,7 +56,7 @@ class JournalReader {
     std::size_t end = 0;
     std::uint64_t sequence = 0;
     std::uint16_t kind = 0;
-    std::string_view payload;
+    std::string payload;
   };
 
   explicit JournalReader(std::string_view bytes) : bytes_(bytes) {}

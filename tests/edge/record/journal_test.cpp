@@ -100,6 +100,39 @@ TEST(Journal, LosesOneEntryByOneFlippedBit) {
   }
 }
 
+// A device may send anything, a journal too.
+std::vector<Entry> flight_that_hears_a_journal() {
+  std::vector<Entry> entries = small_flight();
+  entries[1] = Bytes{HostTime(milliseconds(20)), journal_of(small_flight())};
+  entries[4] = Message{HostTime(milliseconds(40)), Severity::kInfo, "mark", "\xE7\xB5\x50"};
+  return entries;
+}
+
+TEST(Journal, GivesBackAJournalThatADeviceSent) {
+  const std::vector<Entry> entries = flight_that_hears_a_journal();
+  const ReadBack back = read_back(journal_of(entries));
+  EXPECT_EQ(back.summary.state, JournalState::kComplete);
+  ASSERT_EQ(back.entries.size(), entries.size());
+  EXPECT_TRUE(holds_in_order(back.entries, entries));
+}
+
+TEST(Journal, NeverTakesAJournalThatADeviceSentForItself) {
+  const std::vector<Entry> entries = flight_that_hears_a_journal();
+  const std::string whole = journal_of(entries);
+  for (std::size_t size = 0; size < whole.size(); ++size) {
+    const ReadBack back = read_back(whole.substr(0, size));
+    EXPECT_EQ(back.summary.state, JournalState::kTruncated) << size;
+    EXPECT_TRUE(holds_in_order(back.entries, entries)) << size;
+  }
+  for (std::size_t byte = 16; byte < whole.size(); ++byte) {
+    std::string bent = whole;
+    bent[byte] = static_cast<char>(bent[byte] ^ 1);
+    const ReadBack back = read_back(bent);
+    EXPECT_EQ(back.entries.size(), entries.size() - 1) << byte;
+    EXPECT_TRUE(holds_in_order(back.entries, entries)) << byte;
+  }
+}
+
 TEST(Journal, IsDamagedWhereEntriesAreMissingWithin) {
   std::vector<Entry> entries = small_flight();
   std::string bytes = journal_head();
