@@ -39,16 +39,26 @@ Status SimCamera::start(const CameraOptions& options, Sink sink) {
   running_ = std::make_shared<Running>(Running{CameraLink(std::move(sink), options_.buffers),
                                                options.longest_exposure, now + period_, now,
                                                std::nullopt, 0});
-  at(now, [this] {
-    if (plugged_) {
-      running_->link.report(clock_.now(), CameraState::kStarting, "The camera is starting.");
-    } else {
-      running_->link.report(clock_.now(), CameraState::kAbsent, "There is no camera; plug it in.");
-    }
-    watch_for_silence();
-  });
-  schedule_frame();
+  at(now, [this] { begin(); });
+  if (!options_.released) schedule_frame();
   return Done{};
+}
+
+void SimCamera::begin() {
+  CameraLink& link = running_->link;
+  if (!plugged_) {
+    link.report(clock_.now(), CameraState::kAbsent, "There is no camera; plug it in.");
+  } else if (options_.released) {
+    link.report(clock_.now(), CameraState::kStreaming, "The camera waits for its release.");
+  } else {
+    link.report(clock_.now(), CameraState::kStarting, "The camera is starting.");
+  }
+  if (!options_.released) watch_for_silence();  // silence is its rule where it is released
+}
+
+void SimCamera::release(HostTime first_row_start) {
+  if (!running_) return;
+  at(first_row_start, [this, first_row_start] { expose(first_row_start); });
 }
 
 void SimCamera::stop() { running_.reset(); }
@@ -101,11 +111,14 @@ bool SimCamera::sees() const {
 void SimCamera::schedule_frame() {
   const HostTime start = running_->next_start + gaussian(options_.sigma_interval);
   running_->next_start += period_;
-  at(std::max(start, clock_.now()), [this] { expose(); });
+  at(std::max(start, clock_.now()), [this] {
+    expose(clock_.now());
+    schedule_frame();
+  });
 }
 
-void SimCamera::expose() {
-  const ExposureTiming exact{clock_.now(), running_->exposure, options_.row_time, {}};
+void SimCamera::expose(HostTime first_row_start) {
+  const ExposureTiming exact{first_row_start, running_->exposure, options_.row_time, {}};
   const bool lost =
       !sees() || std::uniform_real_distribution<double>(0, 1)(random_) < options_.drop_probability;
   if (lost) {
@@ -115,7 +128,6 @@ void SimCamera::expose() {
         exact.first_row_start + exact.exposure + (options_.height_px - 1) * options_.row_time;
     at(readout_ends + options_.delivery, [this, exact] { deliver(exact); });
   }
-  schedule_frame();
 }
 
 void SimCamera::deliver(const ExposureTiming& exact) {

@@ -31,12 +31,13 @@ struct SimCameraOptions {
   std::chrono::nanoseconds delivery{std::chrono::milliseconds(30)};  // from the last row's end
   double drop_probability = 0;
   int buffers = 5;
+  bool released = false;  // exposes when release() says so, instead of running freely
   unsigned seed = 1;
   PictureSource picture;  // nullptr: even grey that changes from frame to frame
 };
 
-// A camera on the virtual clock, running freely, whose faults are at hand. One thread: that of the
-// clock.
+// A camera on the virtual clock, running freely or released, whose faults are at hand. One thread:
+// that of the clock.
 class SimCamera : public Camera {
  public:
   SimCamera(VirtualClock& clock, SimCameraOptions options);
@@ -46,6 +47,9 @@ class SimCamera : public Camera {
   void stop() override;
   void limit_exposure(std::chrono::microseconds longest) override;
   Result<CameraDescription> describe() override;
+
+  // Exposes once, from that time on. After start().
+  void release(HostTime first_row_start);
 
   // Faults, also before start(). A camera that is away or silent still lets its frames pass by
   // unseen, and counts them as lost when it is back.
@@ -59,7 +63,8 @@ class SimCamera : public Camera {
   struct Running;  // from start() to stop(); what the clock still holds dies with it
 
   void schedule_frame();
-  void expose();
+  void expose(HostTime first_row_start);
+  void begin();
   void deliver(const ExposureTiming& exact);
   void watch_for_silence();
   bool sees() const;

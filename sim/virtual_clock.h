@@ -31,6 +31,7 @@ class VirtualClock : public Clock {
   void after(std::chrono::nanoseconds delay, Action action) { at(now_ + delay, std::move(action)); }
 
   std::size_t pending() const { return actions_.size(); }  // actions still to come
+  HostTime due() const { return actions_.empty() ? HostTime::max() : actions_.begin()->first; }
 
   // Lives through everything up to and at `time`.
   void run_until(HostTime time);

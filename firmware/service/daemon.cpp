@@ -46,10 +46,12 @@ flight::SessionOptions session_options(const config::Config& config, const std::
   return options;
 }
 
-Daemon::Daemon(const config::Config& config, flight::Devices devices, SingleInstance instance)
+Daemon::Daemon(const config::Config& config, flight::Devices devices, SingleInstance instance,
+               DaemonEvents own)
     : config_(config),
       devices_(devices),
       instance_(std::move(instance)),
+      own_(std::move(own)),
       board_(config.capture.release.release == capture::Release::kNearestFrame) {}
 
 Daemon::~Daemon() {
@@ -57,39 +59,17 @@ Daemon::~Daemon() {
 }
 
 Result<std::unique_ptr<Daemon>> Daemon::start(const config::Config& config, const std::string& text,
-                                              flight::Devices devices) {
+                                              flight::Devices devices, DaemonEvents own) {
   auto instance = SingleInstance::in(config.recording.folder);
   if (!instance) return instance.error();
   const auto camera = camera_of(config);
   if (!camera) return camera.error();
-  std::unique_ptr<Daemon> daemon(new Daemon(config, devices, std::move(*instance)));
+  std::unique_ptr<Daemon> daemon(new Daemon(config, devices, std::move(*instance), std::move(own)));
   auto server = StatusServer::start(daemon->board_, config.status.socket, config.status.file);
   if (!server) return server.error();
   daemon->server_ = std::move(*server);
-  Daemon* const self = daemon.get();
-  if (config.advice.enabled) {
-    plan::Options options;
-    options.camera = *camera;
-    options.goal_m = config.advice.goal_m;
-    daemon->adviser_ =
-        std::make_unique<Adviser>(options, [self, pilot = devices.pilot](const Advice& advice) {
-          self->board_.advised(advice.sentence);
-          if (pilot != nullptr) pilot->say(PilotSeverity::kInfo, advice.short_text);
-        });
-  }
-  if (config.measure.enabled) {
-    MeasurerOptions options;
-    options.flights = config.recording.folder;
-    options.memory_mb = config.measure.memory_mb;
-    options.longest = config.measure.longest;
-    if (config.measure.command == "request") {
-      options.request_file = config.recording.folder + "/measure.request";
-    } else {
-      options.program = config.measure.command;
-    }
-    const auto show = [self](const std::string& sentence) { self->board_.measured(sentence); };
-    daemon->measurer_ = std::make_unique<Measurer>(options, Measurer::Events{show, show});
-  }
+  if (config.advice.enabled) daemon->advise(*camera);
+  if (config.measure.enabled) daemon->measure();
   daemon->session_ =
       std::make_unique<flight::Session>(session_options(config, text), devices, daemon->events());
   if (const Status started = daemon->session_->start(); !started) return started.error();
@@ -97,20 +77,68 @@ Result<std::unique_ptr<Daemon>> Daemon::start(const config::Config& config, cons
   return daemon;
 }
 
+void Daemon::advise(const geometry::Camera& camera) {
+  plan::Options options;
+  options.camera = camera;
+  options.goal_m = config_.advice.goal_m;
+  adviser_ = std::make_unique<Adviser>(options, [this](const Advice& advice) {
+    board_.advised(advice.sentence);
+    tell(advice.sentence);
+    if (devices_.pilot != nullptr) devices_.pilot->say(PilotSeverity::kInfo, advice.short_text);
+  });
+}
+
+void Daemon::measure() {
+  MeasurerOptions options;
+  options.flights = config_.recording.folder;
+  options.memory_mb = config_.measure.memory_mb;
+  options.longest = config_.measure.longest;
+  if (config_.measure.command == "request") {
+    options.request_file = config_.recording.folder + "/measure.request";
+  } else {
+    options.program = config_.measure.command;
+  }
+  const auto show = [this](const std::string& sentence) {
+    board_.measured(sentence);
+    tell(sentence);
+  };
+  measurer_ = std::make_unique<Measurer>(options, Measurer::Events{show, show});
+}
+
+void Daemon::tell(const std::string& sentence) {
+  const std::lock_guard lock(told_mutex_);
+  own_.told(sentence);
+}
+
+void Daemon::tell(const capture::Decision& decision) {
+  if (const auto* missed = std::get_if<capture::PhotoMissed>(&decision.what)) {
+    if (missed->number > 0) tell("Photo " + std::to_string(missed->number) + " did not come.");
+  } else if (std::holds_alternative<capture::PhaseChanged>(decision.what)) {
+    tell(board_.sentence());
+  }
+}
+
 flight::SessionEvents Daemon::events() {
   flight::SessionEvents events;
   events.heard = [this](const capture::Input& input) { board_.heard(input); };
   events.decided = [this](const capture::Decision& decision) {
     board_.decided(decision);
+    tell(decision);
+    own_.decided(decision);
     if (adviser_) adviser_->decided(decision);
   };
-  events.said = [this](const record::Message& message) { board_.said(message); };
+  events.said = [this](const record::Message& message) {
+    board_.said(message);
+    tell(message.source + ": " + message.sentence);
+  };
   events.stored = [this](int number, const std::string& folder) {
     board_.stored(number, folder);
+    tell("Photo " + std::to_string(number) + " is stored in " + folder + ".");
     if (measurer_) measurer_->stored(folder);
   };
   events.ended = [this](const std::string& folder) {
     board_.ended(folder);
+    own_.ended(folder);
     look_at_space();
     if (measurer_) measurer_->ended(folder);
   };

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 
 #include "edge/base/result.h"
+#include "edge/geometry/camera.h"
 #include "firmware/config/config.h"
 #include "firmware/flight/session.h"
 #include "firmware/service/adviser.h"
@@ -16,12 +19,20 @@
 
 namespace plumbline::service {
 
+// For whoever runs it. `told`: from any thread, one at a time; the others on the deciding thread.
+struct DaemonEvents {
+  std::function<void(const std::string& sentence)> told = [](const auto&) {};  // for a log
+  std::function<void(const capture::Decision&)> decided = [](const auto&) {};
+  std::function<void(const std::string& folder)> ended = [](const auto&) {};  // a flight
+};
+
 // The daemon: a session with what stands around it. Devices are handed in.
 class Daemon {
  public:
   // `text` is the configuration as it was read. Fails, with a sentence, where it cannot begin.
   static Result<std::unique_ptr<Daemon>> start(const config::Config& config,
-                                               const std::string& text, flight::Devices devices);
+                                               const std::string& text, flight::Devices devices,
+                                               DaemonEvents own = {});
   ~Daemon();
 
   // Until stop(), from any thread.
@@ -33,14 +44,21 @@ class Daemon {
   const StatusBoard& board() const { return board_; }
 
  private:
-  Daemon(const config::Config& config, flight::Devices devices, SingleInstance instance);
+  Daemon(const config::Config& config, flight::Devices devices, SingleInstance instance,
+         DaemonEvents own);
 
+  void advise(const geometry::Camera& camera);
+  void measure();
   flight::SessionEvents events();
+  void tell(const std::string& sentence);
+  void tell(const capture::Decision& decision);
   void look_at_space();
 
   config::Config config_;
   flight::Devices devices_;
   SingleInstance instance_;
+  DaemonEvents own_;
+  std::mutex told_mutex_;
   StatusBoard board_;
   std::unique_ptr<StatusServer> server_;
   std::unique_ptr<Measurer> measurer_;
