@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kThreads = 1;         // of the painter: the other core is the daemon's
-constexpr double kWidth_px = 2000;  // a frame that one core paints while the drone climbs a step
+constexpr double kWidth_px = 1600;  // a frame that one core paints while the drone climbs a step
 constexpr double kFramesPerSecond = 0.3;  // of a camera that runs freely, for the same reason
 constexpr double kSurface_m = 60;
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "edge/image/load.h"
 
+#include <algorithm>
 #include <exception>
+#include <iterator>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -29,19 +31,20 @@ std::optional<Error> load_one(const GreyImageSource& photos, int index, PhotoLev
 
 }  // namespace
 
-Result<std::vector<PhotoLevels>> load_photos(const GreyImageSource& photos, int photo_count,
-                                             int threads, const Progress& progress) {
-  std::vector<PhotoLevels> loaded(static_cast<std::size_t>(photo_count));
-  std::vector<std::optional<Error>> errors(loaded.size());
+Status load_photos(const GreyImageSource& photos, int photo_count, int threads,
+                   const Progress& progress, std::vector<PhotoLevels>& loaded) {
+  const int before = static_cast<int>(loaded.size());
+  std::vector<PhotoLevels> more(static_cast<std::size_t>(photo_count - before));
+  std::vector<std::optional<Error>> errors(more.size());
   std::mutex mutex;
-  int done = 0;
-  parallel_for(photo_count, threads, [&](int i) {
-    const auto slot = static_cast<std::size_t>(i);
+  int done = before;
+  parallel_for(photo_count - before, threads, [&](int k) {
+    const auto slot = static_cast<std::size_t>(k);
     try {
-      errors[slot] = load_one(photos, i, loaded[slot]);
+      errors[slot] = load_one(photos, before + k, more[slot]);
     } catch (const std::exception& error) {
-      errors[slot] = Error{"Photo number " + std::to_string(i + 1) + " could not be loaded (" +
-                           error.what() + "); leave it out."};
+      errors[slot] = Error{"Photo number " + std::to_string(before + k + 1) +
+                           " could not be loaded (" + error.what() + "); leave it out."};
     }
     const std::lock_guard lock(mutex);
     ++done;
@@ -50,7 +53,8 @@ Result<std::vector<PhotoLevels>> load_photos(const GreyImageSource& photos, int 
   for (const auto& error : errors) {
     if (error) return *error;
   }
-  return loaded;
+  std::move(more.begin(), more.end(), std::back_inserter(loaded));
+  return Done{};
 }
 
 }  // namespace plumbline::image

@@ -161,16 +161,17 @@ Result<std::vector<TieObservation>> transfer_picks(const GreyImageSource& photos
                                                    const TieOptions& options) {
   try {
     cv::setNumThreads(1);
-    const auto loaded = load_photos(photos, photo_count, options.threads, {});
+    std::vector<PhotoLevels> levels;
+    const Status loaded = load_photos(photos, photo_count, options.threads, {}, levels);
     if (!loaded) return loaded.error();
-    const Predictors predictors = predictors_for(picks, ties, *loaded);
+    const Predictors predictors = predictors_for(picks, ties, levels);
     const std::vector<Job> jobs = jobs_for(picks, photo_count, predictors);
     std::vector<std::optional<PatchMatch>> matches(jobs.size());
     parallel_for(static_cast<int>(jobs.size()), options.threads, [&](int i) {
       const Job& job = jobs[static_cast<std::size_t>(i)];
       matches[static_cast<std::size_t>(i)] =
-          find_pick((*loaded)[static_cast<std::size_t>(job.pick.photo)],
-                    (*loaded)[static_cast<std::size_t>(job.target)], job.pick, *job.predictor);
+          find_pick(levels[static_cast<std::size_t>(job.pick.photo)],
+                    levels[static_cast<std::size_t>(job.target)], job.pick, *job.predictor);
     });
     return best_of(jobs, matches);
   } catch (const std::exception& error) {

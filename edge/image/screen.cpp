@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "edge/base/parallel.h"
-#include "edge/image/features.h"
 
 namespace plumbline::image {
 namespace {
@@ -64,35 +63,36 @@ std::optional<ScreenedPair> screen_pair(const Features& first, const Features& s
 
 }  // namespace
 
-std::vector<ScreenedPair> screen_pairs(const std::vector<PhotoLevels>& photos,
-                                       const TieOptions& options,
-                                       const std::function<void(int done, int total)>& progress) {
+void Screening::add(const std::vector<PhotoLevels>& photos, const TieOptions& options,
+                    const std::function<void(int done, int total)>& progress) {
+  const int before = static_cast<int>(features_.size());
   const int count = static_cast<int>(photos.size());
-  std::vector<Features> features(photos.size());
+  features_.resize(photos.size());
   std::mutex mutex;
-  int done = 0;
-  parallel_for(count, options.threads, [&](int i) {
-    const auto slot = static_cast<std::size_t>(i);
-    features[slot] = detect_features(photos[slot], kFeaturesPerPhoto);
+  int done = before;
+  parallel_for(count - before, options.threads, [&](int k) {
+    const auto slot = static_cast<std::size_t>(before + k);
+    features_[slot] = detect_features(photos[slot], kFeaturesPerPhoto);
     const std::lock_guard lock(mutex);
     progress(++done, count);
   });
   std::vector<std::pair<int, int>> both;
-  for (int i = 0; i < count; ++i)
-    for (int j = i + 1; j < count; ++j) both.emplace_back(i, j);
+  for (int j = before; j < count; ++j)
+    for (int i = 0; i < j; ++i) both.emplace_back(i, j);
   std::vector<std::optional<ScreenedPair>> found(both.size());
   parallel_for(static_cast<int>(both.size()), options.threads, [&](int k) {
     const auto [i, j] = both[static_cast<std::size_t>(k)];
-    const Features& first = features[static_cast<std::size_t>(i)];
-    const Features& second = features[static_cast<std::size_t>(j)];
+    const Features& first = features_[static_cast<std::size_t>(i)];
+    const Features& second = features_[static_cast<std::size_t>(j)];
     found[static_cast<std::size_t>(k)] = screen_pair(
         first, second, i, j, photos[static_cast<std::size_t>(i)].size_px().x(), options.seed);
   });
-  std::vector<ScreenedPair> pairs;
   for (auto& pair : found) {
-    if (pair) pairs.push_back(std::move(*pair));
+    if (pair) pairs_.push_back(std::move(*pair));
   }
-  return pairs;
+  std::sort(pairs_.begin(), pairs_.end(), [](const ScreenedPair& a, const ScreenedPair& b) {
+    return std::pair(a.pair.first, a.pair.second) < std::pair(b.pair.first, b.pair.second);
+  });
 }
 
 }  // namespace plumbline::image

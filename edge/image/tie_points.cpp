@@ -57,39 +57,56 @@ std::vector<int> components(const std::vector<TieObservation>& observations, int
   return component;
 }
 
-TiePoints tie_photos(const std::vector<PhotoLevels>& photos, const TieOptions& options,
-                     const Progress& progress) {
-  const int count = static_cast<int>(photos.size());
-  const auto tell = [&](const char* stage) {
-    return [&progress, stage](int done, int total) {
-      if (progress) progress(stage, done, total);
-    };
-  };
-  TiePoints ties;
-  const auto pairs = screen_pairs(photos, options, tell("compare photos"));
-  for (const ScreenedPair& screened : pairs) ties.pairs.push_back(screened.pair);
-  auto tracks = measure_tracks(photos, pairs, options, tell("measure tie points"));
-  Eigen::Vector2d size_px(1, 1);
-  for (const PhotoLevels& photo : photos) size_px = size_px.cwiseMax(photo.size_px());
-  take_tracks(choose_tracks(tracks, options.ties_wanted, count, size_px), ties);
-  ties.component = components(ties.observations, count);
-  return ties;
-}
-
 }  // namespace
 
-Result<TiePoints> find_tie_points(const GreyImageSource& photos, int photo_count,
+struct TieFinder::Known {
+  std::vector<PhotoLevels> photos;
+  Screening screening;
+
+  TiePoints tie(const TieOptions& options, const Progress& progress) {
+    const int count = static_cast<int>(photos.size());
+    const auto tell = [&](const char* stage) {
+      return [&progress, stage](int done, int total) {
+        if (progress) progress(stage, done, total);
+      };
+    };
+    TiePoints ties;
+    screening.add(photos, options, tell("compare photos"));
+    const auto& pairs = screening.pairs();
+    for (const ScreenedPair& screened : pairs) ties.pairs.push_back(screened.pair);
+    auto tracks = measure_tracks(photos, pairs, options, tell("measure tie points"));
+    Eigen::Vector2d size_px(1, 1);
+    for (const PhotoLevels& photo : photos) size_px = size_px.cwiseMax(photo.size_px());
+    take_tracks(choose_tracks(tracks, options.ties_wanted, count, size_px), ties);
+    ties.component = components(ties.observations, count);
+    return ties;
+  }
+};
+
+TieFinder::TieFinder() : known_(std::make_unique<Known>()) {}
+TieFinder::~TieFinder() = default;
+TieFinder::TieFinder(TieFinder&&) noexcept = default;
+TieFinder& TieFinder::operator=(TieFinder&&) noexcept = default;
+
+Result<TiePoints> TieFinder::find(const GreyImageSource& photos, int photo_count,
                                   const TieOptions& options, const Progress& progress) {
   try {
     // The photos are shared out among threads here; OpenCV's own threads would only get in the way.
     cv::setNumThreads(1);
-    const auto loaded = load_photos(photos, photo_count, options.threads, progress);
+    const Status loaded =
+        load_photos(photos, photo_count, options.threads, progress, known_->photos);
     if (!loaded) return loaded.error();
-    return tie_photos(*loaded, options, progress);
+    return known_->tie(options, progress);
   } catch (const std::exception& error) {
+    known_ = std::make_unique<Known>();
     return Error{std::string("Measuring tie points failed inside a library (") + error.what() +
                  "); try with fewer or smaller photos."};
   }
+}
+
+Result<TiePoints> find_tie_points(const GreyImageSource& photos, int photo_count,
+                                  const TieOptions& options, const Progress& progress) {
+  return TieFinder().find(photos, photo_count, options, progress);
 }
 
 }  // namespace plumbline::image

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,25 @@ struct TiePoints {
 // loaded. Photos that overlap no other are reported by `component`, not as an error.
 Result<TiePoints> find_tie_points(const GreyImageSource& photos, int photo_count,
                                   const TieOptions& options, const Progress& progress);
+
+// The same for a series of photos that grows while it is measured: what was loaded and compared
+// before is not again. The points are those of find_tie_points() on all photos at once.
+class TieFinder {
+ public:
+  TieFinder();
+  ~TieFinder();
+  TieFinder(TieFinder&&) noexcept;
+  TieFinder& operator=(TieFinder&&) noexcept;
+
+  // `photos` are those of the calls before, with the same options, and as many more as there are.
+  // After a failure it may be called again.
+  Result<TiePoints> find(const GreyImageSource& photos, int photo_count, const TieOptions& options,
+                         const Progress& progress);
+
+ private:
+  struct Known;
+  std::unique_ptr<Known> known_;
+};
 
 // A point measured by hand in one photo, to be found in the others.
 struct Pick {

@@ -23,6 +23,9 @@ std::string metres(double value) {
   return buffer;
 }
 
+// As one says it: a photo taken in the air lies at 36.6522 m.
+std::string about_metres(double value) { return metres(std::round(10 * value) / 10); }
+
 std::string photos(std::size_t count) {
   return count == 1 ? "one more photo" : std::to_string(count) + " more photos";
 }
@@ -73,7 +76,7 @@ class Maker {
 
   void add_aside(double d) {
     Change change;
-    change.what = "one more photo " + metres(d) + " m aside, at " + metres(top_m_) + " m";
+    change.what = "one more photo " + metres(d) + " m aside, at " + about_metres(top_m_) + " m";
     change.options = "--side-step " + metres(d);
     change.aside_m = d;
     change.photos_m = {on_line(top_m_) + d * aside_direction(flight_)};
@@ -86,7 +89,7 @@ class Maker {
     const Eigen::Vector3d second(-first.y(), first.x(), 0);
     Change change;
     change.what = "an L: two more photos, " + metres(d) + " m aside and " + metres(d) +
-                  " m across, at " + metres(top_m_) + " m";
+                  " m across, at " + about_metres(top_m_) + " m";
     change.options = "--side-step " + metres(d) + "," + metres(d);
     change.aside_m = d;
     change.photos_m = {on_line(top_m_) + d * first, on_line(top_m_) + d * (first + second)};
@@ -102,7 +105,8 @@ class Maker {
       change.photos_m.push_back(on_line(h));
     }
     if (change.photos_m.empty()) return;
-    change.what = "climb on to " + metres(end) + " m (" + photos(change.photos_m.size()) + ")";
+    change.what =
+        "climb on to " + about_metres(end) + " m (" + photos(change.photos_m.size()) + ")";
     change.options = "--to " + metres(end);
     change.cost_s = 2 * d / options_.costs.climb_rate_m_s + stops(change.photos_m.size());
     changes_.push_back(change);
@@ -117,8 +121,8 @@ class Maker {
       change.photos_m.push_back(on_line(h));
     }
     if (change.photos_m.empty()) return;
-    change.what =
-        "take photos from " + metres(start) + " m on (" + photos(change.photos_m.size()) + ")";
+    change.what = "take photos from " + about_metres(start) + " m on (" +
+                  photos(change.photos_m.size()) + ")";
     change.options = "--from " + metres(start);
     change.cost_s = stops(change.photos_m.size());
     changes_.push_back(change);
@@ -130,8 +134,8 @@ class Maker {
       change.photos_m.push_back(on_line(h));
     }
     if (change.photos_m.empty() || change.photos_m.size() > kMostMorePhotos) return;
-    change.what = "a photo every " + metres(0.5 * step_m_) + " m instead of every " +
-                  metres(step_m_) + " m (" + photos(change.photos_m.size()) + ")";
+    change.what = "a photo every " + about_metres(0.5 * step_m_) + " m instead of every " +
+                  about_metres(step_m_) + " m (" + photos(change.photos_m.size()) + ")";
     change.options = "--step " + metres(0.5 * step_m_);
     change.cost_s = stops(change.photos_m.size());
     changes_.push_back(change);

@@ -151,8 +151,14 @@ Counts count(const orient::Problem& problem, const orient::Solution& solution) {
 }
 
 Result<Survey> measure(const Input& input, const Options& options, const Progress& progress) {
+  image::TieFinder finder;
+  return measure(input, options, progress, finder);
+}
+
+Result<Survey> measure(const Input& input, const Options& options, const Progress& progress,
+                       image::TieFinder& finder) {
   const int photos = static_cast<int>(input.photos.size());
-  const auto ties = image::find_tie_points(input.images, photos, options.ties, progress);
+  const auto ties = finder.find(input.images, photos, options.ties, progress);
   if (!ties) return ties.error();
   if (auto overlap = check_overlap(*ties, input.picks.size()); !overlap) return overlap.error();
   ProblemMaker maker(input);

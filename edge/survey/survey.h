@@ -65,7 +65,10 @@ struct Survey {
   Counts counts;
 };
 
-// Finds tie points, follows the picks, and orients all photos in one adjustment.
+// Finds tie points, follows the picks, and orients all photos in one adjustment. `finder` keeps
+// what it has found for a call with more photos of the same flight.
+Result<Survey> measure(const Input& input, const Options& options, const Progress& progress,
+                       image::TieFinder& finder);
 Result<Survey> measure(const Input& input, const Options& options, const Progress& progress);
 
 Counts count(const orient::Problem& problem, const orient::Solution& solution);

@@ -2,6 +2,8 @@
 #include "firmware/commands/measure_command.h"
 
 #include <algorithm>
+#include <chrono>
+#include <iostream>
 #include <memory>
 #include <thread>
 #include <utility>
@@ -11,6 +13,7 @@
 #include "firmware/commands/geo_inputs.h"
 #include "firmware/commands/measure_inputs.h"
 #include "firmware/commands/run_report.h"
+#include "firmware/ingest/flight_journal.h"
 
 namespace plumbline::commands {
 namespace {
@@ -39,16 +42,14 @@ deliver::Product product_of(const MeasureArguments& arguments, MeasureInputs inp
   return product;
 }
 
-int run_measure(MeasureArguments arguments) {
-  RunReport report;
-  const Progress progress = report.progress();
-  if (arguments.threads == 0) {
-    arguments.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  }
-  arguments.options.ties.threads = arguments.threads;
-  auto inputs = read_measure_inputs(arguments, progress);
+fs::path out_of(const MeasureArguments& arguments) {
+  return arguments.out.empty() ? default_out(arguments.photos.front()) : arguments.out;
+}
+
+int measure_inputs(const MeasureArguments& arguments, Result<MeasureInputs> inputs,
+                   image::TieFinder& finder, RunReport& report) {
   if (!inputs) return fail(inputs.error());
-  auto survey = survey::measure(inputs->survey, arguments.options, progress);
+  auto survey = survey::measure(inputs->survey, arguments.options, report.progress(), finder);
   if (!survey) return fail(survey.error());
   const auto known = std::move(inputs->check);
   deliver::Product product = product_of(arguments, std::move(*inputs), std::move(*survey));
@@ -60,9 +61,88 @@ int run_measure(MeasureArguments arguments) {
     if (!check) return fail(check.error());
     product.check = std::move(*check);
   }
-  const fs::path out =
-      arguments.out.empty() ? default_out(arguments.photos.front()) : arguments.out;
-  return deliver_result(product, report, out, arguments.json);
+  return deliver_result(product, report, out_of(arguments), arguments.json);
+}
+
+// Measures a flight again and again while its photos come, until its recording has ended.
+class FlightFollower {
+ public:
+  explicit FlightFollower(const MeasureArguments& arguments) : arguments_(arguments) {}
+
+  int run() {
+    const fs::path& flight = arguments_.photos.front();
+    const auto journal = ingest::journal_of(flight);
+    if (arguments_.photos.size() != 1 || !journal) {
+      return fail({"--follow wants one flight with its recording (flight.journal)."});
+    }
+    int status = kGood;
+    for (std::size_t measured = 0;;) {
+      const bool has_ended = ended(*journal);  // before the photos: then they are all there
+      const std::size_t photos = photos_in(flight / "photos");
+      if (photos > std::exchange(measured, photos)) {
+        status = measure();
+      } else if (has_ended) {
+        return status;
+      } else {
+        std::this_thread::sleep_for(kLookEvery);
+      }
+    }
+  }
+
+ private:
+  static constexpr std::chrono::milliseconds kLookEvery{200};
+
+  static bool ended(const fs::path& path) {
+    const auto journal = ingest::read_flight_journal(path);
+    return journal && journal->summary.state == record::JournalState::kComplete;
+  }
+
+  static std::size_t photos_in(const fs::path& folder) {
+    std::error_code trouble;
+    std::size_t count = 0;
+    for (const auto& file : fs::directory_iterator(folder, trouble)) {
+      count += file.path().extension() == ".jpg" ? 1 : 0;
+    }
+    return count;
+  }
+
+  int measure() {
+    RunReport report;
+    auto inputs = read_measure_inputs(arguments_, report.progress());
+    if (inputs) forget_unless_first(inputs->survey.photos);
+    const int status = measure_inputs(arguments_, std::move(inputs), finder_, report);
+    if (status != kGood) return status;
+    std::cout << "Measured from " << names_.size()
+              << " photos: " << (out_of(arguments_) / "report.html").string() << ".\n"
+              << std::flush;
+    return status;
+  }
+
+  // What is known of the photos before holds where they are the first of these.
+  void forget_unless_first(const std::vector<orient::Photo>& photos) {
+    std::vector<std::string> names;
+    for (const auto& photo : photos) names.push_back(photo.name);
+    const bool first =
+        names.size() >= names_.size() && std::equal(names_.begin(), names_.end(), names.begin());
+    if (!first) finder_ = image::TieFinder();
+    names_ = std::move(names);
+  }
+
+  const MeasureArguments& arguments_;
+  image::TieFinder finder_;
+  std::vector<std::string> names_;  // of the photos that it knows
+};
+
+int run_measure(MeasureArguments arguments) {
+  if (arguments.threads == 0) {
+    arguments.threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  }
+  arguments.options.ties.threads = arguments.threads;
+  if (arguments.follow) return FlightFollower(arguments).run();
+  RunReport report;
+  image::TieFinder finder;
+  return measure_inputs(arguments, read_measure_inputs(arguments, report.progress()), finder,
+                        report);
 }
 
 void add_known_options(CLI::App& sub, MeasureArguments& a) {
@@ -110,6 +190,8 @@ void add_measure(CLI::App& app, int& status) {
       ->capture_default_str();
   sub->add_option("--threads", a->threads, "0: as many as the machine has")
       ->check(CLI::Range(0, 256));
+  sub->add_flag("--follow", a->follow,
+                "of a flight that is being flown: measure as photos come, until it has ended");
   sub->add_flag("--json", a->json, "print summary.json instead of the table");
   add_derived_options(*sub, a->derived);
   add_adjustment_options(*sub, a->options.adjustment);

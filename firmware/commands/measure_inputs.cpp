@@ -117,15 +117,19 @@ class InputReader {
     inputs_.survey.photos = std::move(stations->photos);
     inputs_.survey.gnss = stations->gnss;
     inputs_.frame = stations->frame;
-    if (arguments_.gnss.empty()) warn(stations->warnings);
+    if (arguments_.gnss.empty() && !flight_journal()) warn(stations->warnings);
     return Done{};
+  }
+
+  std::optional<fs::path> flight_journal() const {
+    if (arguments_.photos.size() != 1) return std::nullopt;
+    return ingest::journal_of(arguments_.photos.front());
   }
 
   // A flight of the daemon says itself where its photos were taken.
   Status read_flight() {
-    if (!arguments_.gnss.empty() || arguments_.photos.size() != 1) return Done{};
-    const auto path = ingest::journal_of(arguments_.photos.front());
-    if (!path) return Done{};
+    const auto path = flight_journal();
+    if (!arguments_.gnss.empty() || !path) return Done{};
     const auto journal = ingest::read_flight_journal(*path);
     if (!journal) return journal.error();
     std::vector<std::string> names;

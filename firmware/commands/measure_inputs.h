@@ -29,6 +29,7 @@ struct MeasureArguments {
   std::string datum = "that of the base";
   int threads = 0;  // 0: as many as the machine has
   bool json = false;
+  bool follow = false;
   DerivedArguments derived;
   survey::Options options;
 };

@@ -155,7 +155,9 @@ bool Recorder::store_next(HostTime now) {
   // What was decided about a photo is there before the photo: nobody finds one that tells nothing.
   sync_journal(now);
   if (again_) return false;
-  if (const Status published = publish_photo(*photo); !published) {
+  Status published = publish_camera();
+  if (published) published = publish_photo(*photo);
+  if (!published) {
     trouble(published.error(), now);
     return false;
   }
@@ -169,6 +171,14 @@ bool Recorder::store_next(HostTime now) {
   unreported_.push_back(number);
   sync_journal(now);
   return true;
+}
+
+// Once, before the first photo: whoever finds one finds its camera.
+Status Recorder::publish_camera() {
+  if (options_.camera_toml.empty() || camera_is_there_) return Done{};
+  Status published = publish(storage_, folder() + "/camera.toml", options_.camera_toml);
+  camera_is_there_ = published.ok();
+  return published;
 }
 
 Status Recorder::publish_photo(const Photo& photo) {

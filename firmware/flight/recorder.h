@@ -22,6 +22,7 @@ struct RecorderOptions {
   std::chrono::nanoseconds again_after = std::chrono::seconds(1);  // the disk refused
   std::size_t most_waiting_bytes = 8u << 20;                       // of the journal, in memory
   std::size_t most_waiting_photos = 32;
+  std::string camera_toml;  // the camera as it was calibrated, beside the photos; "": not known
 };
 
 // What the recorder has to say, from the thread that works.
@@ -86,6 +87,7 @@ class Recorder {
   void end_if_done(HostTime now);
   void take_over();
   bool store_next(HostTime now);
+  Status publish_camera();
   Status publish_photo(const Photo& photo);
   void sync_journal(HostTime now);
   void trouble(const Error& error, HostTime now);
@@ -110,6 +112,7 @@ class Recorder {
   std::unique_ptr<JournalFile> journal_;  // the working thread's from here on
   HostTime synced_;
   std::vector<int> unreported_;  // durable, and not yet known to be named durably
+  bool camera_is_there_ = false;
   bool end_is_written_ = false;
   std::optional<HostTime> again_;  // the disk refused: not before
   bool in_trouble_ = false;

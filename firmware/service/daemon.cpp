@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "firmware/ingest/camera_toml.h"
+#include "firmware/ingest/text_file.h"
 
 namespace plumbline::service {
 namespace {
@@ -70,8 +71,13 @@ Result<std::unique_ptr<Daemon>> Daemon::start(const config::Config& config, cons
   daemon->server_ = std::move(*server);
   if (config.advice.enabled) daemon->advise(*camera);
   if (config.measure.enabled) daemon->measure();
-  daemon->session_ =
-      std::make_unique<flight::Session>(session_options(config, text), devices, daemon->events());
+  auto options = session_options(config, text);
+  if (!config.camera.calibration.empty()) {
+    auto calibration = ingest::read_text_file(config.camera.calibration);
+    if (!calibration) return calibration.error();
+    options.recorder.camera_toml = std::move(*calibration);
+  }
+  daemon->session_ = std::make_unique<flight::Session>(options, devices, daemon->events());
   if (const Status started = daemon->session_->start(); !started) return started.error();
   daemon->look_at_space();
   return daemon;

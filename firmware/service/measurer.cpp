@@ -30,6 +30,29 @@ std::string program_path(const std::string& wanted) {
 constexpr int kIoprioWhoProcess = 1;
 constexpr int kIoprioClassIdle = 3 << 13;
 
+constexpr const char* kLog = "/measure.log";
+
+// The sentences about results in the log of a process that is still writing it.
+class ResultLines {
+ public:
+  explicit ResultLines(const std::string& path) : path_(path) {}
+
+  std::optional<std::string> next() {
+    std::ifstream file(path_);
+    file.seekg(read_);
+    std::string line;
+    while (std::getline(file, line) && !file.eof()) {  // a line that is whole
+      read_ += static_cast<std::streamoff>(line.size()) + 1;
+      if (line.starts_with("Measured from ")) return line;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  std::string path_;
+  std::streamoff read_ = 0;
+};
+
 // In the child, before it becomes the measuring program: nothing here allocates.
 void become_humble(int memory_mb) {
   ::setpriority(PRIO_PROCESS, 0, 19);
@@ -93,31 +116,33 @@ void Measurer::run() {
 }
 
 void Measurer::measure(const Wish& wish) {
-  const bool was_last_try = wish.landed;
-  measured_photos_ = wish.photos;
-  measured_flight_ = wish.flight;
   const std::string folder = options_.flights + "/" + wish.flight;
+  measured_flight_ = wish.flight;
+  measured_photos_ = wish.photos;
   if (!options_.request_file.empty()) {
     if (!request(folder)) events_.failed("Cannot write " + options_.request_file + ".");
     return;
   }
   const pid_t process = spawn(folder);
-  const int status = process > 0 ? wait_for(process) : -1;
-  const bool good = status >= 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  const int status = process > 0 ? wait_for(process, folder + kLog) : -1;
   {
     const std::lock_guard lock(mutex_);
     if (stopping_) return;
-    failed_ = !good && !was_last_try;
+    if (wish_.flight == wish.flight) measured_photos_ = wish_.photos;  // it followed them
   }
-  if (good) {
-    events_.measured("Measured from " + std::to_string(wish.photos) + " photos: " + folder +
-                     "/result/report.html.");
-  } else if (status >= 0 && WIFSIGNALED(status)) {
+  judge(folder, status, wish.landed);
+}
+
+void Measurer::judge(const std::string& folder, int status, bool was_last_try) {
+  const bool good = status >= 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+  failed_ = !good && !was_last_try;
+  if (good) return;
+  if (status >= 0 && WIFSIGNALED(status)) {
     events_.failed("The measuring process was ended by signal " + std::to_string(WTERMSIG(status)) +
                    "; the photos are kept.");
   } else {
-    events_.failed("The measuring process failed; the photos are kept, and " + folder +
-                   "/measure.log says why.");
+    events_.failed("The measuring process failed; the photos are kept, and " + folder + kLog +
+                   " says why.");
   }
 }
 
@@ -131,13 +156,15 @@ bool Measurer::request(const std::string& flight) const {
 pid_t Measurer::spawn(const std::string& flight) const {
   const std::string program = program_path(options_.program);
   const std::string out = flight + "/result";
-  const std::string log = flight + "/measure.log";
-  const char* const arguments[] = {program.c_str(), "measure",   flight.c_str(),
-                                   "--out",         out.c_str(), nullptr};
+  const std::string log = flight + kLog;
+  std::error_code none;
+  std::filesystem::remove(log, none);
+  const char* const arguments[] = {program.c_str(), "measure",  flight.c_str(), "--out",
+                                   out.c_str(),     "--follow", nullptr};
   const pid_t process = ::fork();
   if (process != 0) return process;
   become_humble(options_.memory_mb);
-  const int file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  const int file = ::open(log.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
   if (file >= 0) {
     ::dup2(file, STDOUT_FILENO);
     ::dup2(file, STDERR_FILENO);
@@ -146,11 +173,17 @@ pid_t Measurer::spawn(const std::string& flight) const {
   ::_exit(127);
 }
 
-int Measurer::wait_for(pid_t process) {
-  const auto deadline = std::chrono::steady_clock::now() + options_.longest;
+int Measurer::wait_for(pid_t process, const std::string& log) {
+  ResultLines results(log);
+  auto deadline = std::chrono::steady_clock::now() + options_.longest;
   int status = 0;
   for (;;) {
-    if (::waitpid(process, &status, WNOHANG) == process) return status;
+    const bool is_over = ::waitpid(process, &status, WNOHANG) == process;
+    while (const auto sentence = results.next()) {
+      events_.measured(*sentence);
+      deadline = std::chrono::steady_clock::now() + options_.longest;
+    }
+    if (is_over) return status;
     bool stop = std::chrono::steady_clock::now() > deadline;
     {
       const std::lock_guard lock(mutex_);

@@ -19,14 +19,14 @@ struct MeasurerOptions {
   std::string program;       // plumbline's path; empty: beside this one, else in PATH
   std::string request_file;  // not empty: asks by this file instead of starting a process
   int memory_mb = 1500;
-  std::chrono::seconds longest{900};
-  int first_at = 3;  // photos
+  std::chrono::seconds longest{900};  // without a result
+  int first_at = 3;                   // photos
 };
 
 // Has the flight measured while it goes on: a process of its own, at idle priority, bounded in
-// memory and time, that reads what is durable on the disk. Started when photos have come; started
-// again for those that came meanwhile; once more after landing where it died. What it does or fails
-// to do costs no photo. One thread of its own.
+// memory and time, that reads what is durable on the disk and follows the flight until it has
+// ended. Started when photos have come; where it died, started again for the next photo, and once
+// more after landing. What it does or fails to do costs no photo. One thread of its own.
 class Measurer {
  public:
   struct Events {
@@ -49,8 +49,9 @@ class Measurer {
 
   void run();
   void measure(const Wish& wish);
+  void judge(const std::string& folder, int status, bool was_last_try);
   pid_t spawn(const std::string& flight) const;
-  int wait_for(pid_t process);
+  int wait_for(pid_t process, const std::string& log);
   bool request(const std::string& flight) const;
 
   MeasurerOptions options_;

@@ -18,6 +18,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
+using ::testing::StartsWith;
 
 std::string content_of(const std::filesystem::path& path) {
   std::ostringstream text;
@@ -71,7 +72,7 @@ class MeasuringProcess : public testing::Test {
 };
 
 TEST_F(MeasuringProcess, StartsAtTheThirdPhotoOnWhatIsOnTheDisk) {
-  Measurer& measurer = measurer_of("echo \"$@\"");
+  Measurer& measurer = measurer_of("echo \"$@\"; echo 'Measured from 3 photos: there.'");
   measurer.stored("0001");
   measurer.stored("0001");
   std::this_thread::sleep_for(300ms);
@@ -79,17 +80,32 @@ TEST_F(MeasuringProcess, StartsAtTheThirdPhotoOnWhatIsOnTheDisk) {
   measurer.stored("0001");
   const auto sentences = said(1);
   ASSERT_EQ(sentences.size(), 1u);
-  EXPECT_THAT(sentences[0], HasSubstr("measured: Measured from 3 photos"));
-  EXPECT_EQ(log(), "measure " + flight() + " --out " + flight() + "/result\n");
+  EXPECT_EQ(sentences[0], "measured: Measured from 3 photos: there.");
+  EXPECT_THAT(log(),
+              StartsWith("measure " + flight() + " --out " + flight() + "/result --follow\n"));
+}
+
+TEST_F(MeasuringProcess, TellsOfEachResultWhileItFollowsTheFlight) {
+  Measurer& measurer = measurer_of(
+      "echo Measured from 3 photos: a.; echo beside; while [ ! -e \"$2/more\" ]; do sleep 0.05; "
+      "done; printf 'Measured from '; sleep 0.2; echo 5 photos: b.");
+  for (int photo = 1; photo <= 3; ++photo) measurer.stored("0001");
+  EXPECT_EQ(said(1).size(), 1u);
+  for (int photo = 4; photo <= 5; ++photo) measurer.stored("0001");
+  std::ofstream(folder_.path() / "0001/more") << '\n';
+  EXPECT_EQ(said(2).back(), "measured: Measured from 5 photos: b.");
+  std::this_thread::sleep_for(400ms);
+  EXPECT_EQ(said(0).size(), 2u) << "one process for all";
 }
 
 TEST_F(MeasuringProcess, IsHumble) {
   options_.first_at = 1;
   options_.memory_mb = 777;
-  Measurer& measurer = measurer_of("nice; ulimit -v; cat /proc/self/oom_score_adj");
+  Measurer& measurer =
+      measurer_of("nice; ulimit -v; cat /proc/self/oom_score_adj; echo Measured from 1 photo.");
   measurer.stored("0001");
   ASSERT_EQ(said(1).size(), 1u);
-  EXPECT_EQ(log(), "19\n" + std::to_string(777 * 1024) + "\n1000\n");
+  EXPECT_THAT(log(), StartsWith("19\n" + std::to_string(777 * 1024) + "\n1000\n"));
 }
 
 TEST_F(MeasuringProcess, IsNotedWhereItDiesAndStartedAgainAfterLanding) {
