@@ -62,6 +62,7 @@ std::vector<int> components(const std::vector<TieObservation>& observations, int
 struct TieFinder::Known {
   std::vector<PhotoLevels> photos;
   Screening screening;
+  MatchMemory matches;
 
   TiePoints tie(const TieOptions& options, const Progress& progress) {
     const int count = static_cast<int>(photos.size());
@@ -74,7 +75,7 @@ struct TieFinder::Known {
     screening.add(photos, options, tell("compare photos"));
     const auto& pairs = screening.pairs();
     for (const ScreenedPair& screened : pairs) ties.pairs.push_back(screened.pair);
-    auto tracks = measure_tracks(photos, pairs, options, tell("measure tie points"));
+    auto tracks = measure_tracks(photos, pairs, options, tell("measure tie points"), matches);
     Eigen::Vector2d size_px(1, 1);
     for (const PhotoLevels& photo : photos) size_px = size_px.cwiseMax(photo.size_px());
     take_tracks(choose_tracks(tracks, options.ties_wanted, count, size_px), ties);

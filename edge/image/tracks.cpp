@@ -11,7 +11,6 @@
 #include "edge/image/corners.h"
 #include "edge/image/correlation_search.h"
 #include "edge/image/epipolar.h"
-#include "edge/image/least_squares_matching.h"
 #include "edge/image/prediction.h"
 
 namespace plumbline::image {
@@ -143,29 +142,69 @@ std::vector<Track> without_repeats(const std::vector<Track>& tracks, int photo_c
   return kept;
 }
 
-std::vector<Track> measure_reference(const std::vector<PhotoLevels>& photos, int reference,
-                                     const std::vector<Partner>& partners,
-                                     const std::vector<Eigen::Vector2d>& corners,
-                                     const TieOptions& options) {
-  const PhotoLevels& own = photos[static_cast<std::size_t>(reference)];
+// One reference photo and those that see the same ground.
+struct Reference {
+  int photo = 0;
+  std::vector<Partner> partners;
+  std::vector<Eigen::Vector2d> corners;
+};
+
+std::vector<Star> match_corners(const std::vector<PhotoLevels>& photos, const Reference& reference,
+                                int threads, MatchMemory& memory) {
+  const auto& [own, partners, corners] = reference;
+  const PhotoLevels& own_levels = photos[static_cast<std::size_t>(own)];
   std::vector<Star> stars(corners.size(), Star(partners.size()));
-  parallel_for(static_cast<int>(corners.size()), options.threads, [&](int c) {
-    const auto slot = static_cast<std::size_t>(c);
+  std::vector<std::vector<std::size_t>> untried(corners.size());  // partners of each corner
+  for (std::size_t c = 0; c < corners.size(); ++c) {
     for (std::size_t k = 0; k < partners.size(); ++k) {
-      const Prediction prediction = partners[k].predictor.predict(corners[slot]);
-      stars[slot][k] =
-          match_point(own, photos[static_cast<std::size_t>(partners[k].photo)], prediction);
+      const auto* known = memory.find(own, partners[k].photo, corners[c]);
+      if (known != nullptr) stars[c][k] = *known;
+      if (known == nullptr) untried[c].push_back(k);
+    }
+  }
+  parallel_for(static_cast<int>(corners.size()), threads, [&](int corner) {
+    const auto c = static_cast<std::size_t>(corner);
+    for (const std::size_t k : untried[c]) {
+      const Prediction prediction = partners[k].predictor.predict(corners[c]);
+      stars[c][k] =
+          match_point(own_levels, photos[static_cast<std::size_t>(partners[k].photo)], prediction);
     }
   });
-  drop_suspects(stars, partners, options.seed * 31U + static_cast<std::uint64_t>(reference) * 977U);
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    for (const std::size_t k : untried[c])
+      memory.keep(own, partners[k].photo, corners[c], stars[c][k]);
+  }
+  return stars;
+}
+
+std::vector<Track> measure_reference(const std::vector<PhotoLevels>& photos,
+                                     const Reference& reference, const TieOptions& options,
+                                     MatchMemory& memory) {
+  std::vector<Star> stars = match_corners(photos, reference, options.threads, memory);
+  drop_suspects(stars, reference.partners,
+                options.seed * 31U + static_cast<std::uint64_t>(reference.photo) * 977U);
   std::vector<Track> tracks;
   for (const Star& star : stars) {
-    if (auto track = track_of(star, reference, partners)) tracks.push_back(std::move(*track));
+    if (auto track = track_of(star, reference.photo, reference.partners))
+      tracks.push_back(std::move(*track));
   }
   return tracks;
 }
 
 }  // namespace
+
+const MatchMemory::Match* MatchMemory::find(int reference, int partner,
+                                            const Eigen::Vector2d& corner_px) const {
+  const auto both = matches_.find({reference, partner});
+  if (both == matches_.end()) return nullptr;
+  const auto match = both->second.find({corner_px.x(), corner_px.y()});
+  return match == both->second.end() ? nullptr : &match->second;
+}
+
+void MatchMemory::keep(int reference, int partner, const Eigen::Vector2d& corner_px,
+                       const Match& match) {
+  matches_[{reference, partner}].insert_or_assign({corner_px.x(), corner_px.y()}, match);
+}
 
 std::vector<int> finest_first(const std::vector<PhotoLevels>& photos,
                               const std::vector<ScreenedPair>& pairs) {
@@ -196,13 +235,14 @@ std::vector<int> finest_first(const std::vector<PhotoLevels>& photos,
 
 std::vector<Track> measure_tracks(const std::vector<PhotoLevels>& photos,
                                   const std::vector<ScreenedPair>& pairs, const TieOptions& options,
-                                  const std::function<void(int done, int total)>& progress) {
+                                  const std::function<void(int done, int total)>& progress,
+                                  MatchMemory& memory) {
   std::vector<Track> tracks;
   Measured measured(photos.size());
   int done = 0;
   for (const int reference : finest_first(photos, pairs)) {
     const PhotoLevels& photo = photos[static_cast<std::size_t>(reference)];
-    const auto partners = partners_of(reference, photos, pairs);
+    auto partners = partners_of(reference, photos, pairs);
     progress(done++, static_cast<int>(photos.size()));
     if (partners.empty()) continue;
     const int cells = std::max(options.ties_wanted * 4 / 5, 50);
@@ -211,7 +251,8 @@ std::vector<Track> measure_tracks(const std::vector<PhotoLevels>& photos,
     std::erase_if(corners, [&](const Eigen::Vector2d& corner) {
       return measured.near(reference, corner, kTakenShare * side_px);
     });
-    for (Track& track : measure_reference(photos, reference, partners, corners, options)) {
+    const Reference own{reference, std::move(partners), std::move(corners)};
+    for (Track& track : measure_reference(photos, own, options, memory)) {
       measured.add(track);
       tracks.push_back(std::move(track));
     }

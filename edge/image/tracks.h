@@ -2,8 +2,12 @@
 #pragma once
 
 #include <functional>
+#include <map>
+#include <optional>
+#include <utility>
 #include <vector>
 
+#include "edge/image/least_squares_matching.h"
 #include "edge/image/screen.h"
 
 namespace plumbline::image {
@@ -13,11 +17,27 @@ namespace plumbline::image {
 // observations.front() is the reference's; `point` is not yet set.
 using Track = std::vector<TieObservation>;
 
+// What matching has found before, of a series of photos that grows: the same corner is not matched
+// with the same photo again.
+class MatchMemory {
+ public:
+  using Match = std::optional<PatchMatch>;  // nothing: it was not found
+
+  // nullptr where it was not tried.
+  const Match* find(int reference, int partner, const Eigen::Vector2d& corner_px) const;
+  void keep(int reference, int partner, const Eigen::Vector2d& corner_px, const Match& match);
+
+ private:
+  using Place = std::pair<double, double>;
+  std::map<std::pair<int, int>, std::map<Place, Match>> matches_;  // by reference and partner
+};
+
 // Measures well-spread corners of every photo that is in a pair. Photos with the finest view of the
 // ground go first, and no photo takes a corner where it has an observation already.
 std::vector<Track> measure_tracks(const std::vector<PhotoLevels>& photos,
                                   const std::vector<ScreenedPair>& pairs, const TieOptions& options,
-                                  const std::function<void(int done, int total)>& progress);
+                                  const std::function<void(int done, int total)>& progress,
+                                  MatchMemory& memory);
 
 // Photo numbers, the finest view of the ground first, by the scales of the pairs' homographies.
 std::vector<int> finest_first(const std::vector<PhotoLevels>& photos,

@@ -198,6 +198,47 @@ TEST(FindTiePoints, HandsOnTheSentenceOfAPhotoThatCannotBeLoaded) {
   EXPECT_EQ(ties.error().sentence, "photo 0002.jpg is cut short; copy it again.");
 }
 
+void expect_same_bits(const TiePoints& a, const TiePoints& b) {
+  EXPECT_EQ(a.point_count, b.point_count);
+  EXPECT_EQ(a.component, b.component);
+  ASSERT_EQ(a.observations.size(), b.observations.size());
+  for (std::size_t k = 0; k < a.observations.size(); ++k) {
+    EXPECT_EQ(a.observations[k].photo, b.observations[k].photo);
+    EXPECT_EQ(a.observations[k].point, b.observations[k].point);
+    EXPECT_EQ(a.observations[k].pixel, b.observations[k].pixel);
+    EXPECT_EQ(a.observations[k].covariance_px2, b.observations[k].covariance_px2);
+  }
+}
+
+TEST(TieFinder, FindsInASeriesThatGrowsWhatIsFoundInAllAtOnce) {
+  TieFinder finder;
+  std::vector<int> loads(climb_photos().size());
+  const GreyImageSource counted = [&](int i) -> Result<Image> {
+    ++loads[static_cast<std::size_t>(i)];
+    return climb_photos()[static_cast<std::size_t>(i)];
+  };
+  for (const int photos : {2, 3, 5, 5}) {
+    const auto ties = finder.find(counted, photos, {600, 1, 1}, {});
+    ASSERT_TRUE(ties.ok());
+    if (photos == 5) expect_same_bits(*ties, climb_ties());
+  }
+  EXPECT_EQ(loads, std::vector<int>({1, 1, 1, 1, 1}));
+}
+
+TEST(TieFinder, GoesOnAfterAPhotoThatCouldNotBeLoaded) {
+  TieFinder finder;
+  bool broken = true;
+  const GreyImageSource source = [&](int i) -> Result<Image> {
+    if (broken && i == 4) return Error{"photo 5 is being written."};
+    return climb_photos()[static_cast<std::size_t>(i)];
+  };
+  EXPECT_FALSE(finder.find(source, 5, {600, 1, 1}, {}).ok());
+  broken = false;
+  const auto ties = finder.find(source, 5, {600, 1, 1}, {});
+  ASSERT_TRUE(ties.ok());
+  expect_same_bits(*ties, climb_ties());
+}
+
 TEST(TransferPicks, FindsAPickInEveryPhotoThatSeesIt) {
   const Scene scene;
   std::vector<Pick> picks;
