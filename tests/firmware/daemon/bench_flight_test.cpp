@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// One simulated flight in real time through the real daemon, its drivers, and a measuring process.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <map>
+#include <thread>
+
+#include "tests/firmware/commands/acceptance/program.h"
+
+namespace plumbline::acceptance {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::HasSubstr;
+
+// plumblined at the bench, until it has measured a flight or five minutes have gone; then ended as
+// a service ends it.
+class BenchedDaemon {
+ public:
+  explicit BenchedDaemon(const fs::path& folder) : folder_(folder) {
+    process_ = ::fork();
+    if (process_ != 0) return;
+    const int log = ::open((folder / "log").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    ::dup2(log, STDERR_FILENO);
+    const std::string bench = folder / "bench";
+    ::execl(PLUMBLINE_DAEMON, PLUMBLINE_DAEMON, "--bench", bench.c_str(), nullptr);
+    ::_exit(127);
+  }
+
+  // The last status, with `photos` measured after landing.
+  Json wait_for_result(int most_seconds) {
+    Json status;
+    for (int k = 0; k < 10 * most_seconds; ++k) {
+      std::this_thread::sleep_for(100ms);
+      status = Json::parse(text_of(folder_ / "bench/status.json"), nullptr, false);
+      if (status.is_discarded() || status.value("last_flight", "").empty()) continue;
+      const std::string all = "Measured from " + std::to_string(photos_stored()) + " photos";
+      if (status.value("result", "").find(all) != std::string::npos) break;
+    }
+    return status;
+  }
+
+  // Its exit status.
+  int stop() {
+    ::kill(process_, SIGTERM);
+    int status = -1;
+    ::waitpid(process_, &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+
+  std::string log() const { return text_of(folder_ / "log"); }
+
+ private:
+  std::size_t photos_stored() const {
+    std::error_code none;
+    const fs::directory_iterator files(folder_ / "bench/flights/0001/photos", none);
+    return static_cast<std::size_t>(std::distance(begin(files), end(files)));
+  }
+
+  fs::path folder_;
+  pid_t process_ = -1;
+};
+
+class FlightAtTheBench : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    std::string pattern = (fs::temp_directory_path() / "plumbline-bench-XXXXXX").string();
+    folder() = ::mkdtemp(pattern.data());
+    BenchedDaemon daemon(folder());
+    status() = daemon.wait_for_result(300);
+    exit_status() = daemon.stop();
+    log() = daemon.log();
+  }
+  static void TearDownTestSuite() { fs::remove_all(folder()); }
+
+  static fs::path& folder() {
+    static fs::path path;
+    return path;
+  }
+  static Json& status() {
+    static Json json;
+    return json;
+  }
+  static int& exit_status() {
+    static int status = -1;
+    return status;
+  }
+  static std::string& log() {
+    static std::string text;
+    return text;
+  }
+  static fs::path flight() { return folder() / "bench/flights/0001"; }
+};
+
+// All in one: the flight takes two minutes.
+TEST_F(FlightAtTheBench, IsRecordedWholeReplayedBitForBitAndMeasuredAsTheTruthWas) {
+  EXPECT_EQ(exit_status(), 0) << log();
+  EXPECT_EQ(status().value("photos_missed", -1), 0) << log();
+  EXPECT_THAT(status().value("result", ""), HasSubstr("0001/result/report.html")) << log();
+
+  // Whole: each height of the plan once.
+  const Outcome check = run_plumbline({"check", flight().string(), "--dump"}, folder());
+  EXPECT_EQ(check.status, 0) << check.err;
+  for (int step = 30; step <= 90; step += 5) {
+    const std::string taken = "for=height step_m=" + std::to_string(step) + ".00 ";
+    const std::size_t first = check.out.find(taken);
+    ASSERT_NE(first, std::string::npos) << step;
+    EXPECT_EQ(check.out.find(taken, first + 1), std::string::npos) << step;
+  }
+  EXPECT_TRUE(fs::exists(flight() / "camera.toml"));
+
+  // Replayed.
+  const Outcome replay = run_plumbline({"replay", flight().string(), "--json"}, folder());
+  EXPECT_EQ(replay.status, 0) << replay.out << replay.err;
+
+  // Measured while it flew, and again with the targets: as the truth was.
+  EXPECT_TRUE(summary_of(flight() / "result").value("converged", false));
+  const Outcome measured = run_plumbline(
+      {"measure", flight().string(), "--picks", (flight() / "truth/picks.csv").string(), "--check",
+       (flight() / "truth/check.csv").string(), "--out", (folder() / "checked").string()},
+      folder());
+  ASSERT_EQ(measured.status, 0) << measured.err;
+  const Json truth = summary_of(folder() / "checked")["check"];
+  EXPECT_EQ(truth["points"], 39);
+  EXPECT_GE(truth["joint_nees"], truth["joint_nees_low"]) << measured.out;
+  EXPECT_LE(truth["joint_nees"], truth["joint_nees_high"]) << measured.out;
+  EXPECT_GE(truth["share_within_two_sigma"], 0.9) << measured.out;
+}
+
+}  // namespace
+}  // namespace plumbline::acceptance
