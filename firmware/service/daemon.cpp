@@ -6,6 +6,7 @@
 
 #include "firmware/ingest/camera_toml.h"
 #include "firmware/ingest/text_file.h"
+#include "firmware/service/disk_space.h"
 
 namespace plumbline::service {
 namespace {
@@ -151,21 +152,20 @@ flight::SessionEvents Daemon::events() {
   return events;
 }
 
-// In photos of a size that a JPEG of such a frame may have: 3 bits a pixel.
 void Daemon::look_at_space() {
-  const auto free = devices_.storage.free_bytes();
-  if (!free) return;
-  const double pixels = static_cast<double>(config_.camera.options.width_px.value_or(4056)) *
-                        config_.camera.options.height_px.value_or(3040);
-  const double kept = 1e6 * config_.recording.keep_free_mb;
-  const double room = std::max(0.0, static_cast<double>(*free) - kept) / (pixels * 3 / 8);
-  const auto photos = static_cast<std::int64_t>(room);
-  const capture::CapturePlan& plan = config_.capture.plan;
-  const auto planned = static_cast<std::int64_t>(plan.heights_m.size()) + (plan.aside_m ? 1 : 0);
-  board_.space(photos, planned);
-  if (photos >= planned || devices_.pilot == nullptr) return;
-  devices_.pilot->say(PilotSeverity::kWarning, "Disk: room for " + std::to_string(photos) + " of " +
-                                                   std::to_string(planned) + " photos");
+  Storage& storage = devices_.storage;
+  const std::int64_t planned = photos_planned(config_);
+  if (config_.recording.clean_results) {
+    const int cleaned = clean_results(
+        storage, [&] { return photos_that_fit(storage, config_).value_or(planned) >= planned; });
+    if (cleaned > 0) tell("The results of " + std::to_string(cleaned) + " old flights made room.");
+  }
+  const auto photos = photos_that_fit(storage, config_);
+  if (!photos) return;
+  board_.space(*photos, planned);
+  if (*photos >= planned || devices_.pilot == nullptr) return;
+  devices_.pilot->say(PilotSeverity::kWarning, "Disk: room for " + std::to_string(*photos) +
+                                                   " of " + std::to_string(planned) + " photos");
 }
 
 void Daemon::run() {

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "firmware/service/disk_space.h"
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace plumbline::service {
+namespace {
+
+constexpr int kUsualWidth_px = 4056;
+constexpr int kUsualHeight_px = 3040;
+constexpr double kBytesPerPixel = 3.0 / 8;  // of a JPEG of much detail
+
+bool is_flight(const std::string& name) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  return name.size() >= 4 && std::all_of(name.begin(), name.end(), is_digit);
+}
+
+bool clean_result(Storage& storage, const std::string& folder) {
+  const auto names = storage.list(folder);
+  if (!names) return false;
+  bool is_cleaner = false;
+  for (const std::string& name : *names) {
+    is_cleaner = storage.remove(folder + "/" + name).ok() || is_cleaner;
+  }
+  return is_cleaner;
+}
+
+}  // namespace
+
+std::optional<std::int64_t> photos_that_fit(Storage& storage, const config::Config& config) {
+  const auto free = storage.free_bytes();
+  if (!free) return std::nullopt;
+  const CameraOptions& camera = config.camera.options;
+  const double photo_bytes = kBytesPerPixel * camera.width_px.value_or(kUsualWidth_px) *
+                             camera.height_px.value_or(kUsualHeight_px);
+  const double kept_bytes = 1e6 * config.recording.keep_free_mb;
+  const double room_bytes = std::max(0.0, static_cast<double>(*free) - kept_bytes);
+  return static_cast<std::int64_t>(room_bytes / photo_bytes);
+}
+
+std::int64_t photos_planned(const config::Config& config) {
+  const capture::CapturePlan& plan = config.capture.plan;
+  return static_cast<std::int64_t>(plan.heights_m.size()) + (plan.aside_m ? 1 : 0);
+}
+
+int clean_results(Storage& storage, const std::function<bool()>& is_enough) {
+  const auto names = storage.list("");
+  if (!names) return 0;
+  std::vector<std::string> flights;
+  std::copy_if(names->begin(), names->end(), std::back_inserter(flights), is_flight);
+  if (!flights.empty()) flights.pop_back();
+  int cleaned = 0;
+  for (const std::string& flight : flights) {
+    if (is_enough()) break;
+    cleaned += clean_result(storage, flight + "/result") ? 1 : 0;
+  }
+  return cleaned;
+}
+
+}  // namespace plumbline::service

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "firmware/service/disk_space.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "sim/sim_disk.h"
+
+namespace plumbline::service {
+namespace {
+
+constexpr const char* kFlights[] = {"0001", "0002", "0003"};
+
+void put_flights(Storage& disk) {
+  for (const std::string flight : kFlights) {
+    ASSERT_TRUE(disk.make_folder(flight + "/photos"));
+    ASSERT_TRUE(disk.make_folder(flight + "/result"));
+    for (const char* file :
+         {"/flight.journal", "/photos/0001.jpg", "/result/points.csv", "/result/report.html"}) {
+      ASSERT_TRUE(publish(disk, flight + file, std::string(1000, 'x')));
+    }
+  }
+}
+
+std::size_t results_of(Storage& disk, const std::string& flight) {
+  return disk.list(flight + "/result").value().size();
+}
+
+TEST(CleanResults, RemovesTheOldestUntilThereIsRoomAndNothingElse) {
+  sim::SimDisk disk;
+  put_flights(disk);
+  EXPECT_EQ(clean_results(disk, [&] { return results_of(disk, "0001") == 0; }), 1);
+  EXPECT_EQ(results_of(disk, "0001"), 0u);
+  EXPECT_EQ(results_of(disk, "0002"), 2u);
+  for (const std::string flight : kFlights) {
+    EXPECT_TRUE(disk.read(flight + "/flight.journal"));
+    EXPECT_TRUE(disk.read(flight + "/photos/0001.jpg"));
+  }
+}
+
+TEST(CleanResults, LeavesTheNewestFlightItsResult) {
+  sim::SimDisk disk;
+  put_flights(disk);
+  EXPECT_EQ(clean_results(disk, [] { return false; }), 2);
+  EXPECT_EQ(results_of(disk, "0003"), 2u);
+  EXPECT_EQ(clean_results(disk, [] { return false; }), 0) << "what is clean is not counted";
+}
+
+TEST(CleanResults, TouchesNoFolderThatIsNoFlight) {
+  sim::SimDisk disk;
+  put_flights(disk);
+  ASSERT_TRUE(disk.make_folder("mine/result"));
+  ASSERT_TRUE(publish(disk, "mine/result/thesis", "x"));
+  clean_results(disk, [] { return false; });
+  EXPECT_TRUE(disk.read("mine/result/thesis"));
+}
+
+TEST(PhotosThatFit, AreCountedBesideWhatIsToStayFree) {
+  sim::SimDisk disk(30'000'000'000);
+  config::Config config;
+  config.camera.options.width_px = 4000;
+  config.camera.options.height_px = 2000;  // 3 MB a photo
+  config.recording.keep_free_mb = 0;
+  const auto free = disk.free_bytes();
+  ASSERT_TRUE(free);
+  const auto photos = photos_that_fit(disk, config);
+  ASSERT_TRUE(photos);
+  EXPECT_EQ(*photos, static_cast<std::int64_t>(*free / 3'000'000));
+  config.recording.keep_free_mb = 10'000'000;
+  EXPECT_EQ(photos_that_fit(disk, config), 0);
+  config.capture.plan.heights_m = {30, 40};
+  EXPECT_EQ(photos_planned(config), 3);
+}
+
+}  // namespace
+}  // namespace plumbline::service
