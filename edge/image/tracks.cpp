@@ -151,7 +151,9 @@ struct Reference {
 
 std::vector<Star> match_corners(const std::vector<PhotoLevels>& photos, const Reference& reference,
                                 int threads, MatchMemory& memory) {
-  const auto& [own, partners, corners] = reference;
+  const std::vector<Partner>& partners = reference.partners;
+  const std::vector<Eigen::Vector2d>& corners = reference.corners;
+  const int own = reference.photo;
   const PhotoLevels& own_levels = photos[static_cast<std::size_t>(own)];
   std::vector<Star> stars(corners.size(), Star(partners.size()));
   std::vector<std::vector<std::size_t>> untried(corners.size());  // partners of each corner

@@ -23,7 +23,7 @@ bool clean_result(Storage& storage, const std::string& folder) {
   if (!names) return false;
   bool is_cleaner = false;
   for (const std::string& name : *names) {
-    is_cleaner = storage.remove(folder + "/" + name).ok() || is_cleaner;
+    is_cleaner = storage.remove(std::string(folder).append("/").append(name)).ok() || is_cleaner;
   }
   return is_cleaner;
 }
