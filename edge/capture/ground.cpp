@@ -8,7 +8,6 @@
 namespace plumbline::capture {
 namespace {
 
-constexpr std::size_t kSeconds = 13;
 constexpr std::size_t kNotYet = 3;  // the last seconds, which do not count
 constexpr double kNearby_m = 0.3;   // as high as the ground, or three sigmas
 constexpr double kGroundSigmas = 3;
@@ -40,8 +39,10 @@ void Ground::add(const HeightSeen& seen) {
 bool Ground::is_flat(std::size_t seconds, double doubt_m) const {
   if (seconds_.size() < seconds) return false;
   const double last_m = seconds_.back().mean_m();
-  return std::all_of(seconds_.end() - static_cast<std::ptrdiff_t>(seconds), seconds_.end(),
-                     [&](const Second& s) { return std::abs(s.mean_m() - last_m) <= doubt_m; });
+  for (std::size_t k = seconds_.size() - seconds; k < seconds_.size(); ++k) {
+    if (std::abs(seconds_[k].mean_m() - last_m) > doubt_m) return false;
+  }
+  return true;
 }
 
 // The second before is complete: what does it say?
@@ -71,7 +72,6 @@ void Ground::begin_second(std::int64_t number) {
     }
   }
   seconds_.push_back({number, 0, 0, 0});
-  if (seconds_.size() > kSeconds) seconds_.pop_front();
 }
 
 }  // namespace plumbline::capture

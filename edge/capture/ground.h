@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <optional>
 
+#include "edge/base/ring.h"
 #include "edge/base/time.h"
 
 namespace plumbline::capture {
@@ -42,8 +43,10 @@ class Ground {
   void begin_second(std::int64_t number);
   bool is_flat(std::size_t seconds, double doubt_m) const;
 
-  std::deque<Second> seconds_;  // oldest first; the last one is under way
-  int flat_seconds_ = 0;        // so many in a row were as high as the one after them
+  static constexpr std::size_t kSeconds = 13;
+
+  Ring<Second> seconds_{kSeconds};  // oldest first; the last one is under way
+  int flat_seconds_ = 0;            // so many in a row were as high as the one after them
   std::optional<double> height_m_;
   double sigma_m_ = 0;  // of the receiver when it was found
 };

@@ -3,7 +3,8 @@
 
 #include <cmath>
 #include <string>
-#include <vector>
+
+#include "edge/base/units.h"
 
 namespace plumbline::geodesy {
 namespace {
@@ -11,6 +12,21 @@ namespace {
 bool is_place(const Geodetic& place) {
   return std::abs(place.latitude_deg) <= 90 && std::abs(place.longitude_deg) <= 360 &&
          place.height_ellipsoidal_m >= -12e3 && place.height_ellipsoidal_m <= 100e3;
+}
+
+// Columns: east, north and up of a place, in the earth's frame (Hofmann-Wellenhof et al. 2008,
+// GNSS, eq. 8.6). Not by GeographicLib, whose matrices are vectors: this is asked for while a photo
+// is aimed at, where nothing may wait for memory.
+Eigen::Matrix3d ecef_from_enu(const Geodetic& place) {
+  const double sin_latitude = std::sin(place.latitude_deg * kRadPerDeg);
+  const double cos_latitude = std::cos(place.latitude_deg * kRadPerDeg);
+  const double sin_longitude = std::sin(place.longitude_deg * kRadPerDeg);
+  const double cos_longitude = std::cos(place.longitude_deg * kRadPerDeg);
+  Eigen::Matrix3d turn;
+  turn.col(0) << -sin_longitude, cos_longitude, 0;
+  turn.col(1) << -sin_latitude * cos_longitude, -sin_latitude * sin_longitude, cos_latitude;
+  turn.col(2) << cos_latitude * cos_longitude, cos_latitude * sin_longitude, sin_latitude;
+  return turn;
 }
 
 }  // namespace
@@ -47,11 +63,7 @@ Geodetic LocalFrame::geodetic_of(const Eigen::Vector3d& in_enu_m) const {
 }
 
 Eigen::Matrix3d LocalFrame::enu_from_enu_at(const Geodetic& place) const {
-  Eigen::Vector3d unused;
-  std::vector<double> row_major(9);
-  frame_.Forward(place.latitude_deg, place.longitude_deg, place.height_ellipsoidal_m, unused.x(),
-                 unused.y(), unused.z(), row_major);
-  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(row_major.data());
+  return ecef_from_enu(origin()).transpose() * ecef_from_enu(place);
 }
 
 }  // namespace plumbline::geodesy

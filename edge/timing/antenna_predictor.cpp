@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <ranges>
 #include <utility>
 
 #include "edge/gnss/antenna_track.h"
@@ -39,7 +40,7 @@ struct AntennaPredictor::Seen {
 };
 
 AntennaPredictor::AntennaPredictor(const PredictorOptions& options)
-    : options_(options), filter_(options.motion) {}
+    : options_(options), filter_(options.motion), epochs_(options.most_epochs) {}
 
 bool AntennaPredictor::add(const GnssFix& fix) {
   if (!frame_ && gnss::is_position(fix)) {
@@ -113,10 +114,7 @@ void AntennaPredictor::keep(Epoch epoch) {
   ++summary_.used;
   outliers_in_a_row_ = 0;
   epochs_.push_back(std::move(epoch));
-  while (epochs_.size() > options_.most_epochs ||
-         epochs_.back().time - epochs_.front().time > options_.history) {
-    epochs_.pop_front();
-  }
+  while (epochs_.back().time - epochs_.front().time > options_.history) epochs_.pop_front();
 }
 
 // An epoch as known from those after it, too, as far as they are joined.
@@ -147,9 +145,9 @@ std::optional<MotionState> AntennaPredictor::motion_at(std::size_t before, GpsTi
 std::optional<PredictedAntenna> AntennaPredictor::at(GpsTime time) const {
   if (epochs_.empty() || time < epochs_.front().time) return std::nullopt;
   if (time - epochs_.back().time > options_.longest_ahead) return std::nullopt;
-  const auto next = std::upper_bound(epochs_.begin(), epochs_.end(), time,
-                                     [](GpsTime t, const Epoch& epoch) { return t < epoch.time; });
-  const auto before = static_cast<std::size_t>(next - epochs_.begin()) - 1;
+  const auto indices = std::views::iota(std::size_t{0}, epochs_.size());
+  const auto is_not_after = [&](std::size_t k) { return epochs_[k].time <= time; };
+  const std::size_t before = *std::ranges::partition_point(indices, is_not_after) - 1;
   const auto motion = motion_at(before, time);
   if (!motion) return std::nullopt;
   const Epoch& epoch = epochs_[before];

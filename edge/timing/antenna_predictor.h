@@ -3,10 +3,10 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <deque>
 #include <optional>
 
 #include "edge/base/gnss_fix.h"
+#include "edge/base/ring.h"
 #include "edge/base/time.h"
 #include "edge/geodesy/local_frame.h"
 #include "edge/timing/gnss_clock.h"
@@ -74,10 +74,10 @@ class AntennaPredictor {
     GpsTime time;
     MotionState foreseen;  // from the epochs before
     MotionState state;     // with this one
-    Eigen::Matrix3d stated_m2;
-    FixQuality quality;
-    bool sigma_assumed;
-    bool begins;  // nothing before it is joined to it
+    Eigen::Matrix3d stated_m2 = Eigen::Matrix3d::Zero();
+    FixQuality quality = FixQuality::kNone;
+    bool sigma_assumed = false;
+    bool begins = false;  // nothing before it is joined to it
   };
   struct Seen;
 
@@ -93,7 +93,7 @@ class AntennaPredictor {
   PredictorSummary summary_;
   MotionFilter filter_;
   std::optional<geodesy::LocalFrame> frame_;  // about the first position
-  std::deque<Epoch> epochs_;                  // oldest first
+  Ring<Epoch> epochs_;                        // oldest first
   int outliers_in_a_row_ = 0;
 };
 

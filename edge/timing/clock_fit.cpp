@@ -3,16 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 #include <vector>
-
-#include "edge/timing/envelope.h"
 
 namespace plumbline::timing {
 namespace {
 
 constexpr std::size_t kMostDoubtful = 64;
 constexpr std::uint64_t kLeastToEstimate = 3;
+
+// One at either end may be of a part of its piece only.
+std::size_t most_pieces(const ClockFitOptions& options) {
+  return static_cast<std::size_t>(options.longest_window / options.piece) + 2;
+}
 
 void add_sigma(GnssClock& clock, double sigma_s) { clock.variance_s2 += sigma_s * sigma_s; }
 
@@ -30,7 +32,11 @@ void allow_for_changes_of_rate(GnssClock& clock, double span_s, double walk, dou
 
 }  // namespace
 
-ClockFit::ClockFit(const ClockFitOptions& options) : options_(options) {}
+ClockFit::ClockFit(const ClockFitOptions& options)
+    : options_(options), earliest_(most_pieces(options)), finder_(most_pieces(options)) {
+  points_.reserve(most_pieces(options));
+  doubtful_.reserve(kMostDoubtful);
+}
 
 bool ClockFit::add(GpsTime epoch, HostTime first_byte) {
   const Arrival arrival{epoch, first_byte};
@@ -139,7 +145,8 @@ bool ClockFit::confirmed() const {
 }
 
 void ClockFit::begin_anew() {
-  const std::deque<Arrival> after = std::exchange(doubtful_, {});
+  const std::vector<Arrival> after = doubtful_;
+  doubtful_.clear();
   const auto floor = std::min_element(after.begin(), after.end(), [](const auto& a, const auto& b) {
     return a.delay() < b.delay();
   });
@@ -157,12 +164,13 @@ void ClockFit::begin_anew() {
 
 void ClockFit::refit() {
   const nanoseconds base = earliest_.back().delay();
-  std::vector<DelayPoint> points;
-  for (const Arrival& arrival : earliest_) {
-    points.push_back({in_seconds(arrival.epoch - newest_), in_seconds(arrival.delay() - base)});
+  points_.clear();
+  for (std::size_t k = 0; k < earliest_.size(); ++k) {
+    const Arrival& arrival = earliest_[k];
+    points_.push_back({in_seconds(arrival.epoch - newest_), in_seconds(arrival.delay() - base)});
   }
-  const Envelope floor = lower_envelope(points, options_.rate_sigma);
-  const double span_s = -points.front().time_s;
+  const Envelope floor = finder_.find(points_, options_.rate_sigma);
+  const double span_s = -points_.front().time_s;
   GnssClock clock;
   clock.gps = newest_;
   clock.host = HostTime(newest_.time_since_epoch() + base + from_seconds(floor.value_s));

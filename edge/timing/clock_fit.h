@@ -3,10 +3,12 @@
 
 #include <chrono>
 #include <cstdint>
-#include <deque>
 #include <optional>
+#include <vector>
 
+#include "edge/base/ring.h"
 #include "edge/base/time.h"
+#include "edge/timing/envelope.h"
 #include "edge/timing/gnss_clock.h"
 
 namespace plumbline::timing {
@@ -89,8 +91,10 @@ class ClockFit {
 
   ClockFitOptions options_;
   ClockFitSummary summary_;
-  std::deque<Arrival> earliest_;  // one per piece of the window, oldest first
-  std::deque<Arrival> doubtful_;  // the last ones, all late or all early
+  Ring<Arrival> earliest_;          // one per piece of the window, oldest first
+  std::vector<Arrival> doubtful_;   // the last ones, all late or all early
+  std::vector<DelayPoint> points_;  // those of refit(), kept for their memory
+  EnvelopeFinder finder_;
   bool doubtful_are_late_ = false;
   std::uint64_t used_since_start_ = 0;
   GpsTime newest_;

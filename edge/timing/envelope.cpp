@@ -20,7 +20,7 @@ constexpr double kSlopeLimitSigmas = 4;
 
 // The only points that a line from below can touch: the lower convex hull, by time (Andrew 1979,
 // "Another efficient algorithm for convex hulls in two dimensions"). Some ten of a hundred.
-std::vector<DelayPoint> lower_hull(std::vector<DelayPoint> points) {
+void lower_hull(std::vector<DelayPoint>& points, std::vector<DelayPoint>& hull) {
   std::sort(points.begin(), points.end(), [](const DelayPoint& a, const DelayPoint& b) {
     return a.time_s != b.time_s ? a.time_s < b.time_s : a.delay_s < b.delay_s;
   });
@@ -28,20 +28,21 @@ std::vector<DelayPoint> lower_hull(std::vector<DelayPoint> points) {
     return (b.time_s - a.time_s) * (c.delay_s - a.delay_s) >
            (b.delay_s - a.delay_s) * (c.time_s - a.time_s);
   };
-  std::vector<DelayPoint> hull;
+  hull.clear();
   for (const DelayPoint& point : points) {
     while (hull.size() > 1 && !turns_up(hull[hull.size() - 2], hull.back(), point)) {
       hull.pop_back();
     }
     hull.push_back(point);
   }
-  return hull;
 }
 
 class SlopeLikelihood {
  public:
-  SlopeLikelihood(const std::vector<DelayPoint>& points, double slope_sigma)
-      : points_(points), hull_(lower_hull(points)), slope_sigma_(slope_sigma) {
+  // `hull`: of the points; `above`: room for as many.
+  SlopeLikelihood(std::span<const DelayPoint> points, const std::vector<DelayPoint>& hull,
+                  double slope_sigma, std::vector<double>& above)
+      : points_(points), hull_(hull), above_(above), slope_sigma_(slope_sigma) {
     for (const DelayPoint& point : points) {
       mean_time_s_ += point.time_s / static_cast<double>(points.size());
       mean_delay_s_ += point.delay_s / static_cast<double>(points.size());
@@ -71,13 +72,13 @@ class SlopeLikelihood {
   // The density at the floor, seen from the best line so far.
   void take_density_about(double slope) {
     const double lowest_s = env_s(slope);
-    std::vector<double> above;
+    above_.clear();
     for (const DelayPoint& point : points_) {
-      above.push_back(point.delay_s - slope * point.time_s - lowest_s);
+      above_.push_back(point.delay_s - slope * point.time_s - lowest_s);
     }
-    std::sort(above.begin(), above.end());
-    above.resize(std::min(above.size(), std::max(kFewest, above.size() / kOneIn)));
-    gap_ = floor_gap(above);
+    std::sort(above_.begin(), above_.end());
+    above_.resize(std::min(above_.size(), std::max(kFewest, above_.size() / kOneIn)));
+    gap_ = floor_gap(above_);
     density_per_s_ = 1 / std::max(kLeastGap_s, gap_.mean_s);
   }
 
@@ -86,8 +87,9 @@ class SlopeLikelihood {
     return mean_delay_s_ - slope * mean_time_s_ - env_s(slope);
   }
 
-  const std::vector<DelayPoint>& points_;
-  std::vector<DelayPoint> hull_;
+  std::span<const DelayPoint> points_;
+  const std::vector<DelayPoint>& hull_;
+  std::vector<double>& above_;
   double slope_sigma_;
   double mean_time_s_ = 0;
   double mean_delay_s_ = 0;
@@ -160,14 +162,26 @@ Envelope mean_over_slopes(const SlopeLikelihood& likelihood, double best) {
 
 }  // namespace
 
-Envelope lower_envelope(const std::vector<DelayPoint>& points, double slope_sigma) {
-  SlopeLikelihood likelihood(points, slope_sigma);
+EnvelopeFinder::EnvelopeFinder(std::size_t most_points) {
+  sorted_.reserve(most_points);
+  hull_.reserve(most_points);
+  above_.reserve(most_points);
+}
+
+Envelope EnvelopeFinder::find(std::span<const DelayPoint> points, double slope_sigma) {
+  sorted_.assign(points.begin(), points.end());
+  lower_hull(sorted_, hull_);
+  SlopeLikelihood likelihood(points, hull_, slope_sigma, above_);
   double best = best_slope(likelihood);
   for (int i = 0; i < 2; ++i) {
     likelihood.take_density_about(best);
     best = best_slope(likelihood);
   }
   return mean_over_slopes(likelihood, best);
+}
+
+Envelope lower_envelope(std::span<const DelayPoint> points, double slope_sigma) {
+  return EnvelopeFinder(points.size()).find(points, slope_sigma);
 }
 
 }  // namespace plumbline::timing

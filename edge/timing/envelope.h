@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
+#include <span>
 #include <vector>
 
 namespace plumbline::timing {
@@ -32,6 +34,19 @@ struct Envelope {
 // integration, with a normal prior of `slope_sigma` about 0.
 //
 // `points`: one or more, any order.
-Envelope lower_envelope(const std::vector<DelayPoint>& points, double slope_sigma);
+Envelope lower_envelope(std::span<const DelayPoint> points, double slope_sigma);
+
+// The same for one series after the other, in memory that is taken once.
+class EnvelopeFinder {
+ public:
+  explicit EnvelopeFinder(std::size_t most_points);
+
+  // At most so many points.
+  Envelope find(std::span<const DelayPoint> points, double slope_sigma);
+
+ private:
+  std::vector<DelayPoint> sorted_, hull_;
+  std::vector<double> above_;
+};
 
 }  // namespace plumbline::timing

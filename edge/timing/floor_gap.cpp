@@ -2,6 +2,7 @@
 #include "edge/timing/floor_gap.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace plumbline::timing {
@@ -18,7 +19,7 @@ constexpr double kFurthest_s = 0.3;
 constexpr int kSteps = 60;
 
 // Logarithm of the posterior density of a gap, but for a constant.
-double log_density(const std::vector<double>& above_s, double gap_s) {
+double log_density(std::span<const double> above_s, double gap_s) {
   const double highest_s = above_s.back() + gap_s;
   const auto others = static_cast<double>(above_s.size() - 1);
   double fall = 0;  // minus the sum of log(y / L)
@@ -29,14 +30,14 @@ double log_density(const std::vector<double>& above_s, double gap_s) {
 
 }  // namespace
 
-FloorGap floor_gap(const std::vector<double>& above_s) {
+FloorGap floor_gap(std::span<const double> above_s) {
   const double step = std::log(kFurthest_s / kNearest_s) / kSteps;
-  std::vector<double> gaps_s;
-  std::vector<double> logs;
-  for (int i = 0; i <= kSteps; ++i) {
-    gaps_s.push_back(kNearest_s * std::exp(i * step));
+  std::array<double, kSteps + 1> gaps_s{};
+  std::array<double, kSteps + 1> logs{};
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    gaps_s[i] = kNearest_s * std::exp(static_cast<double>(i) * step);
     // Steps are even in the logarithm: each stands for an interval as long as its gap.
-    logs.push_back(log_density(above_s, gaps_s.back()) + std::log(gaps_s.back()));
+    logs[i] = log_density(above_s, gaps_s[i]) + std::log(gaps_s[i]);
   }
   const double most = *std::max_element(logs.begin(), logs.end());
   double weight = 0;

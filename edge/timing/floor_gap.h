@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <vector>
+#include <span>
 
 namespace plumbline::timing {
 
@@ -22,6 +22,6 @@ struct FloorGap {
 //
 // `above_s`: distances of the lowest points from the lowest of all, ascending, the first one 0; at
 // least one. Those far from the floor say nothing about it and should not be among them.
-FloorGap floor_gap(const std::vector<double>& above_s);
+FloorGap floor_gap(std::span<const double> above_s);
 
 }  // namespace plumbline::timing

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include "tests/edge/geodesy/proj_transform.h"
 
@@ -60,6 +61,26 @@ TEST(LocalFrame, TurnsVectorsOfTheNeighbourhoodByTheAngleBetweenTheVerticals) {
   EXPECT_NEAR(their_up.y(), std::sin(1 * kRad), 1e-12);
   EXPECT_NEAR(their_up.z(), std::cos(1 * kRad), 1e-12);
   EXPECT_NEAR((turn * turn.transpose() - Eigen::Matrix3d::Identity()).norm(), 0, 1e-12);
+}
+
+TEST(LocalFrame, TurnsVectorsAsGeographicLibDoes) {
+  const Geodetic origin{-33.86, 151.21, 58};
+  const auto frame = LocalFrame::at(origin);
+  const GeographicLib::LocalCartesian theirs(origin.latitude_deg, origin.longitude_deg,
+                                             origin.height_ellipsoidal_m);
+  std::mt19937 random(6);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  for (int trial = 0; trial < 100; ++trial) {
+    const Geodetic place{90 * unit(random), 180 * unit(random), 5000 * unit(random)};
+    std::vector<double> turn(9);
+    double x = 0, y = 0, z = 0;
+    theirs.Forward(place.latitude_deg, place.longitude_deg, place.height_ellipsoidal_m, x, y, z,
+                   turn);
+    const Eigen::Matrix3d ours = frame->enu_from_enu_at(place);
+    for (int k = 0; k < 9; ++k) {
+      EXPECT_NEAR(ours(k / 3, k % 3), turn[static_cast<std::size_t>(k)], 1e-14);
+    }
+  }
 }
 
 TEST(LocalFrame, RefusesWhatIsNoPlace) {

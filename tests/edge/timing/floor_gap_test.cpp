@@ -66,7 +66,7 @@ TEST(FloorGap, IsWiderWhereTheLawBeginsMoreThinly) {
 }
 
 TEST(FloorGap, OfOnePointIsWhatIsUsual) {
-  const FloorGap gap = floor_gap({0});
+  const FloorGap gap = floor_gap(std::vector<double>{0});
   // An exponential prior of mean 20 ms: its mean is its sigma.
   EXPECT_NEAR(gap.mean_s, 20e-3, 0.5e-3);
   EXPECT_NEAR(gap.sigma_s, 20e-3, 0.5e-3);
