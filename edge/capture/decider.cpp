@@ -72,6 +72,8 @@ void Decider::resume(const Resumed& resumed) {
   resumed_ = resumed.flying;
   ground_is_of_before_ = !resumed.flying;
   resumed_last_fix_ = resumed.last_fix;
+  const bool a_moment_ago = resumed.last_seen && now_ - *resumed.last_seen < kSameFlight;
+  if (resumed.flying && a_moment_ago) blind_from_ = now_ + options_.plan.reckon_for;
   take_off_.resume(resumed.ground_height_m);
   steps_.resume(resumed.taken);
   last_number_ = resumed.photos;
@@ -110,6 +112,10 @@ void Decider::look_at_phase(std::vector<Decision>& decisions) {
     const auto fix = navigator_.last_fix();
     const bool stale = resumed_last_fix_ && fix && *fix - *resumed_last_fix_ > kSameFlight;
     change_phase(stale ? Phase::kLanded : Phase::kFlying, decisions);
+  }
+  // A drone that was in the air a moment ago still is, whatever has become of its receiver.
+  if (phase_ == Phase::kWaiting && blind_from_ && now_ >= *blind_from_) {
+    change_phase(Phase::kFlying, decisions);
   }
   if (phase_ == Phase::kWaiting && placed && (streaming_ || by_pulse())) {
     change_phase(Phase::kReady, decisions);
@@ -257,6 +263,7 @@ HostTime Decider::due() const {
   if (phase_ == Phase::kReady && by_pulse() && tests_ < options_.release.test_pulses) {
     return std::min(pulses_.due(), pulses_.is_waiting() ? HostTime::max() : next_test_);
   }
+  if (phase_ == Phase::kWaiting && blind_from_) return *blind_from_;
   if (phase_ != Phase::kFlying) return HostTime::max();
   if (pulses_.is_waiting()) return std::min(pulses_.due(), next_look_);
   HostTime due = std::min(next_look_, frames_.due());

@@ -72,6 +72,7 @@ class Decider {
   bool resumed_ = false;              // in the air
   bool ground_is_of_before_ = false;  // of a run before, and may be of another place
   std::optional<UtcTime> resumed_last_fix_;
+  std::optional<HostTime> blind_from_;  // resumed in the air a moment ago: without position, too
   AimState aim_state_;
   std::optional<Aim> aim_;
   int last_number_ = 0;

@@ -28,6 +28,7 @@ struct Resumed {
   std::optional<UtcTime> last_fix;
   int photos = 0;                   // the highest number given out
   std::vector<std::uint8_t> taken;  // one per entry of the plan's heights, in its order: 1 if taken
+  std::optional<HostTime> last_seen;  // what was heard last, where the computer ran on since
 };
 
 struct FixHeard {

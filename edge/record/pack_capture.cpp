@@ -168,6 +168,7 @@ void fields(Pass& pass, T& resumed) {
   utc_field(pass, resumed.last_fix);
   pass(resumed.photos);
   flags_field(pass, resumed.taken);
+  optional_field(pass, resumed.last_seen);
 }
 template <typename Pass, Like<capture::FixHeard> T>
 void fields(Pass& pass, T& heard) {

@@ -52,6 +52,8 @@ struct Story {
   std::optional<double> ground_height_m;  // of the take-off point
   capture::Ground ground;                 // before it was one
   std::optional<UtcTime> last_fix;
+  std::string boot;  // in which it was written last,
+  HostTime heard;    // and until when
   int photos = 0;
   std::size_t heights = 0;                 // entries of the plan that photos name
   std::vector<std::pair<int, int>> taken;  // number of the photo, entry of the plan
@@ -80,12 +82,15 @@ void read_fix(const GnssFix& fix, HostTime now, Story& story) {
 
 void read_entry(const record::Entry& entry, Story& story) {
   story.ended = std::holds_alternative<record::Ended>(entry);
-  if (const auto* decision = std::get_if<capture::Decision>(&entry)) {
+  if (const auto* began = std::get_if<record::Began>(&entry)) {
+    story.boot = began->boot;
+  } else if (const auto* decision = std::get_if<capture::Decision>(&entry)) {
     read_decision(*decision, story);
   } else if (const auto* stored = std::get_if<record::Stored>(&entry)) {
     story.stored.insert(stored->number);
     story.photos = std::max(story.photos, stored->number);
   } else if (const auto* input = std::get_if<capture::Input>(&entry)) {
+    story.heard = input->now;
     if (const auto* heard = std::get_if<capture::FixHeard>(&input->what)) {
       read_fix(heard->fix, input->now, story);
     }
@@ -227,6 +232,8 @@ Result<OpenFlight> go_on(Storage& storage, const std::string& folder, Story stor
   if (story.ground_height_m) flight.resumed = resumed_from(story);
   flight.journal = std::make_unique<JournalFile>(storage, path, story.summary.whole_bytes);
   flight.next_sequence = story.next_sequence;
+  flight.boot = story.boot;
+  flight.heard = story.heard;
   return flight;
 }
 

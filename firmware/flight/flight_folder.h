@@ -22,6 +22,8 @@ struct OpenFlight {
   std::uint64_t next_sequence = 0;
   // How far it had come when it was last written to, where it may still be under way.
   std::optional<capture::Resumed> resumed;
+  std::string boot;  // of the computer in which that was, and when it heard something last
+  HostTime heard;
   std::vector<record::Stored> found;  // photos on the disk, whole, that the journal does not name
   std::vector<std::string> notes;     // sentences: what was found and mended
 };

@@ -42,7 +42,9 @@ Status Session::start() {
   auto flight = open_flight(devices_.storage);
   if (!flight) return flight.error();
   const OpenFlight* opened = &*flight;
-  const auto resumed = flight->resumed;
+  auto resumed = flight->resumed;
+  const bool same_boot = !options_.boot.empty() && opened->boot == options_.boot;
+  if (resumed && same_boot) resumed->last_seen = opened->heard;
   OpenFlight facts;
   facts.found = opened->found;
   facts.notes = opened->notes;

@@ -129,5 +129,45 @@ TEST(Session, GoesOnWithTheSameFlightAfterARestartInTheAir) {
   EXPECT_EQ(summary.state, record::JournalState::kComplete);
 }
 
+// A flight whose receiver falls silent, and whose program is started anew 1 s later, in that boot.
+std::vector<capture::PhotoTaken> photos_after_restart_without_receiver(const std::string& boot) {
+  flights::DroneOptions options = short_flight();
+  options.receiver.faults = {{39, 1000, sim::GnssFault::Kind::kSilent, {}}};
+  flights::Drone drone(options);
+  sim::SimDisk disk;
+  SessionOptions plan = short_plan();
+  plan.boot = "first";
+  {
+    Session first(plan, devices_of(drone, disk), {});
+    EXPECT_TRUE(first.start());
+    first.run(HostTime(seconds(40)));
+  }
+  plan.boot = boot;
+  std::vector<capture::PhotoTaken> taken;
+  SessionEvents events;
+  events.decided = [&](const capture::Decision& decision) {
+    const auto* photo = std::get_if<capture::PhotoTaken>(&decision.what);
+    if (photo != nullptr) taken.push_back(*photo);
+  };
+  Session second(plan, devices_of(drone, disk), events);
+  EXPECT_TRUE(second.start());
+  second.run(HostTime(seconds(60)));
+  return taken;
+}
+
+TEST(Session, PhotographsByTimeAfterARestartInTheAirWithoutReceiver) {
+  const auto taken = photos_after_restart_without_receiver("first");
+  EXPECT_GE(taken.size(), 6u);  // every 2 s after 5 s
+  for (const auto& photo : taken) {
+    EXPECT_EQ(photo.target.reason, capture::Reason::kBlind);
+    EXPECT_TRUE(photo.marks.no_position && photo.marks.resumed);
+  }
+}
+
+// After a night nobody knows that it is in the air.
+TEST(Session, WaitsForAPositionWhereTheComputerWasSwitchedOffMeanwhile) {
+  EXPECT_TRUE(photos_after_restart_without_receiver("second").empty());
+}
+
 }  // namespace
 }  // namespace plumbline::flight
