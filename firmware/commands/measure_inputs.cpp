@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "edge/base/units.h"
 #include "firmware/commands/antenna_stations.h"
 #include "firmware/commands/geo_inputs.h"
 #include "firmware/commands/lever_arm.h"
@@ -23,10 +24,10 @@ namespace {
 namespace fs = std::filesystem;
 
 // As the program was configured that flew.
-capture::CaptureOptions options_of_flight(const ingest::FlightJournal& journal) {
+config::Config config_of_flight(const ingest::FlightJournal& journal) {
   for (const auto& entry : journal.entries) {
     const auto* began = std::get_if<record::Began>(&entry);
-    if (began != nullptr) return config::parse_config(began->configuration, "").config.capture;
+    if (began != nullptr) return config::parse_config(began->configuration, "").config;
   }
   return {};
 }
@@ -134,12 +135,24 @@ class InputReader {
     if (!journal) return journal.error();
     std::vector<std::string> names;
     for (const auto& photo : photos_.photos) names.push_back(photo.name);
-    const auto antenna = antenna_of_flight(*journal, names, options_of_flight(*journal));
+    const config::Config config = config_of_flight(*journal);
+    const auto antenna = antenna_of_flight(*journal, names, config.capture);
     warn(antenna.warnings);
+    put_headings(headings_of_flight(*journal, names), config.pilot);
     if (Status placed = place_antennas(antenna, inputs_.frame, inputs_.survey); !placed) {
       return placed;
     }
     return remember(*path);
+  }
+
+  void put_headings(const std::vector<std::optional<double>>& vehicle_rad,
+                    const config::PilotConfig& pilot) {
+    if (!pilot.photo_top_deg) return;
+    for (std::size_t k = 0; k < vehicle_rad.size(); ++k) {
+      if (!vehicle_rad[k]) continue;
+      inputs_.survey.photos[k].heading = {*vehicle_rad[k] + *pilot.photo_top_deg * kRadPerDeg,
+                                          pilot.heading_sigma_deg * kRadPerDeg};
+    }
   }
 
   // A log given by hand stands for the photos' own positions, all of them.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,10 @@ struct TriggerConfig {
 struct PilotConfig {
   std::string link;   // MAVLink: "" none, "udp://HOST:PORT", or a port "/dev/ttyAMA1@57600"
   int system_id = 1;  // of the vehicle
+  // Azimuth of the top of the photos from the vehicle's nose, clockwise: where it is known, the
+  // autopilot's heading is the photos', with that sigma.
+  std::optional<double> photo_top_deg;
+  double heading_sigma_deg = 5;  // of a compass among motors
 };
 
 struct RecordingConfig {

@@ -108,6 +108,16 @@ std::vector<Key> pilot_keys() {
            is_pilot_link_or_empty, PLUMBLINE_FIELD(pilot.link)),
       number({"pilot", "system_id", "The vehicle's system id, which is Plumbline's too."}, kPlain,
              {1, 255}, PLUMBLINE_FIELD(pilot.system_id)),
+      number_or(
+          Value(std::string("unknown")),
+          {"pilot", "photo_top_deg",
+           "Where the top of the photos points, from the vehicle's nose clockwise: where that "
+           "is known, the autopilot's heading is that of the photos. 0: the nose is at their "
+           "top."},
+          kDegrees, {0, 360}, PLUMBLINE_FIELD(pilot.photo_top_deg)),
+      number({"pilot", "heading_sigma_deg",
+              "The standard deviation of that heading, common to the flight: it is a compass's."},
+             kDegrees, {0.1, 45}, PLUMBLINE_FIELD(pilot.heading_sigma_deg)),
   };
 }
 

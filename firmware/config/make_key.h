@@ -32,6 +32,7 @@ inline constexpr Unit kMetres{"metres"};
 inline constexpr Unit kMetresPerSecond{"metres per second"};
 inline constexpr Unit kPixels{"pixels"};
 inline constexpr Unit kMegabytes{"megabytes"};
+inline constexpr Unit kDegrees{"degrees"};
 inline constexpr Unit kDioptres{"dioptres"};
 inline constexpr Unit kPerSecond{"frames per second"};
 inline constexpr Unit kSeconds{"seconds", 1};

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "firmware/ingest/flight_journal.h"
 
+#include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <map>
 #include <utility>
 
@@ -94,6 +96,51 @@ class Playback {
   double latency_sigma_s_ = 0;
 };
 
+int number_of(const std::string& photo) {
+  int number = 0;
+  std::from_chars(photo.data(), photo.data() + photo.size(), number);
+  return number;
+}
+
+// Host times compare within one run of the program.
+class Headings {
+ public:
+  void take(const record::Entry& entry) {
+    if (std::holds_alternative<record::Began>(entry)) finish_run();
+    if (const auto* attitude = std::get_if<PilotAttitude>(&entry)) told_.push_back(*attitude);
+    if (const auto* decision = std::get_if<capture::Decision>(&entry)) {
+      const auto* taken = std::get_if<capture::PhotoTaken>(&decision->what);
+      if (taken != nullptr) photos_.push_back(*taken);
+    }
+  }
+
+  std::map<int, double> finish() {
+    finish_run();
+    return std::move(yaw_rad_);
+  }
+
+ private:
+  static constexpr std::chrono::seconds kNear{1};
+
+  void finish_run() {
+    for (const capture::PhotoTaken& photo : std::exchange(photos_, {})) {
+      const auto off = [&](const PilotAttitude& told) {
+        return std::chrono::abs(told.arrival - photo.exposed);
+      };
+      const auto nearest = std::min_element(
+          told_.begin(), told_.end(),
+          [&](const PilotAttitude& a, const PilotAttitude& b) { return off(a) < off(b); });
+      if (nearest == told_.end() || off(*nearest) > kNear) continue;
+      yaw_rad_.insert_or_assign(photo.number, nearest->yaw_rad);
+    }
+    told_.clear();
+  }
+
+  std::vector<PilotAttitude> told_;
+  std::vector<capture::PhotoTaken> photos_;
+  std::map<int, double> yaw_rad_;
+};
+
 }  // namespace
 
 std::optional<std::filesystem::path> journal_of(const std::filesystem::path& flight) {
@@ -124,9 +171,7 @@ AntennaPositions antenna_of_flight(const FlightJournal& journal,
   AntennaPositions antenna;
   antenna.time_sigma_s = playback.latency_sigma_s();
   for (const std::string& photo : photos) {
-    int number = 0;
-    std::from_chars(photo.data(), photo.data() + photo.size(), number);
-    const auto place = places.find(number);
+    const auto place = places.find(number_of(photo));
     if (place == places.end()) {
       antenna.photos.emplace_back();
       antenna.warnings.push_back("Photo " + photo +
@@ -136,6 +181,19 @@ AntennaPositions antenna_of_flight(const FlightJournal& journal,
     }
   }
   return antenna;
+}
+
+std::vector<std::optional<double>> headings_of_flight(const FlightJournal& journal,
+                                                      const std::vector<std::string>& photos) {
+  Headings headings;
+  for (const record::Entry& entry : journal.entries) headings.take(entry);
+  const auto yaw_rad = headings.finish();
+  std::vector<std::optional<double>> found;
+  for (const std::string& photo : photos) {
+    const auto yaw = yaw_rad.find(number_of(photo));
+    found.push_back(yaw == yaw_rad.end() ? std::nullopt : std::optional(yaw->second));
+  }
+  return found;
 }
 
 }  // namespace plumbline::ingest

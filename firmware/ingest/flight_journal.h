@@ -31,4 +31,9 @@ AntennaPositions antenna_of_flight(const FlightJournal& journal,
                                    const std::vector<std::string>& photos,
                                    const capture::CaptureOptions& options);
 
+// The vehicle's heading at the exposures of photos by their file names, as the autopilot told it
+// within a second of each: radians from north, clockwise. Empty where it told none.
+std::vector<std::optional<double>> headings_of_flight(const FlightJournal& journal,
+                                                      const std::vector<std::string>& photos);
+
 }  // namespace plumbline::ingest

@@ -63,6 +63,42 @@ TEST(FlightJournal, KnowsWhereEachPhotoWasTakenAsWellAsItSays) {
   EXPECT_LT(std::sqrt(squares_m2 / share.all), 0.02);  // two sigmas of one epoch, interpolated
 }
 
+record::Entry photo_at(int number, std::chrono::milliseconds exposed) {
+  capture::PhotoTaken taken;
+  taken.number = number;
+  taken.exposed = HostTime(exposed);
+  return capture::Decision{HostTime(exposed), taken};
+}
+
+record::Entry attitude_at(std::chrono::milliseconds arrival, double yaw_rad) {
+  PilotAttitude attitude;
+  attitude.arrival = HostTime(arrival);
+  attitude.yaw_rad = yaw_rad;
+  return attitude;
+}
+
+TEST(FlightJournal, KnowsTheHeadingThatTheAutopilotToldNextToEachPhoto) {
+  using std::chrono::milliseconds;
+  FlightJournal journal;
+  // The second run is of another boot: its times compare with its own only.
+  journal.entries = {record::Began{},
+                     attitude_at(milliseconds(1000), 0.1),
+                     attitude_at(milliseconds(1500), 0.2),
+                     photo_at(1, milliseconds(1400)),
+                     attitude_at(milliseconds(2000), 0.3),
+                     photo_at(2, milliseconds(3500)),
+                     record::Began{},
+                     photo_at(3, milliseconds(1020)),
+                     attitude_at(milliseconds(1100), -2.5)};
+  const auto headings =
+      headings_of_flight(journal, {"0001.jpg", "0002.jpg", "0003.jpg", "0004.jpg"});
+  ASSERT_EQ(headings.size(), 4u);
+  EXPECT_EQ(headings[0], 0.2);
+  EXPECT_FALSE(headings[1]) << "a second and a half away";
+  EXPECT_EQ(headings[2], -2.5);
+  EXPECT_FALSE(headings[3]);
+}
+
 TEST(FlightJournal, SaysWhichPhotoHasNoPosition) {
   const auto antenna = antenna_of_flight({}, {"0001.jpg"}, {});
   ASSERT_EQ(antenna.photos.size(), 1u);
