@@ -2,8 +2,6 @@
 #include "edge/timing/antenna_predictor.h"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
-#include <ranges>
 #include <utility>
 
 #include "edge/gnss/antenna_track.h"
@@ -145,9 +143,8 @@ std::optional<MotionState> AntennaPredictor::motion_at(std::size_t before, GpsTi
 std::optional<PredictedAntenna> AntennaPredictor::at(GpsTime time) const {
   if (epochs_.empty() || time < epochs_.front().time) return std::nullopt;
   if (time - epochs_.back().time > options_.longest_ahead) return std::nullopt;
-  const auto indices = std::views::iota(std::size_t{0}, epochs_.size());
-  const auto is_not_after = [&](std::size_t k) { return epochs_[k].time <= time; };
-  const std::size_t before = *std::ranges::partition_point(indices, is_not_after) - 1;
+  std::size_t before = epochs_.size() - 1;  // most often it is one of the last that is asked for
+  while (epochs_[before].time > time) --before;
   const auto motion = motion_at(before, time);
   if (!motion) return std::nullopt;
   const Epoch& epoch = epochs_[before];
