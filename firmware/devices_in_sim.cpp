@@ -86,7 +86,8 @@ SimulatedBench::SimulatedBench(const BenchOptions& options, Clock& clock, sim::B
       profile_(with_width(*sim::named_profile(options.profile), kWidth_px)),
       seed_(options.seed),
       clock_(clock),
-      flight_(std::move(flight)) {}
+      flight_(std::move(flight)),
+      begun_(clock.now()) {}
 
 Status SimulatedBench::write_files() {
   const Status camera =
@@ -111,7 +112,6 @@ std::string SimulatedBench::configuration_text() const {
 }
 
 Status SimulatedBench::start() {
-  begun_ = clock_.now();
   std::error_code ignored;
   if (fs::is_symlink(folder_ + "/receiver", ignored)) fs::remove(folder_ + "/receiver", ignored);
   port_ = std::make_unique<sim::LivePort>(clock_, folder_ + "/receiver", receiver());

@@ -37,7 +37,7 @@ class SimulatedBench {
 
   std::string configuration() const { return folder_ + "/plumbline.toml"; }
 
-  // The flight begins, on the ground; its receiver can be opened.
+  // The receiver can be opened. The flight has begun, on the ground, when the bench was made.
   Status start();
 
   std::unique_ptr<Camera> make_camera(bool released);

@@ -183,11 +183,12 @@ int run(const std::string& path, Devices& devices) {
   EndSignals signals;
   if (const Status made = make_devices(config, devices); !made) return fail(made.error().sentence);
   if (const auto warning = folder_warning(config.recording.folder)) std::cerr << *warning << '\n';
+  auto daemon = service::Daemon::start(config, *text, devices.lent(), events_for(devices));
+  if (!daemon) return fail(daemon.error().sentence);
+  // Not before: a second daemon in the same folder must not take the first one's receiver away.
   if (devices.bench) {
     if (const Status begun = devices.bench->start(); !begun) return fail(begun.error().sentence);
   }
-  auto daemon = service::Daemon::start(config, *text, devices.lent(), events_for(devices));
-  if (!daemon) return fail(daemon.error().sentence);
   signals.watch(**daemon);
   std::unique_ptr<CameraFinder> finder;
   if (config.camera.id.empty()) {

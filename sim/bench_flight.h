@@ -35,7 +35,6 @@ class BenchFlight {
   const geodesy::LocalFrame& frame() const { return frame_; }
   const World& world() const { return world_; }
   const geometry::Camera& calibrated_camera() const { return flight_.calibrated_camera; }
-  double duration_s() const { return path_.duration_s(); }
 
   // The flight as truth.h takes it, of photos that were taken.
   struct Taken {

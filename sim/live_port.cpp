@@ -16,6 +16,7 @@ LivePort::~LivePort() {
 
 Status LivePort::start() {
   Status plugged_in = port_.plug_in();
+  plugged_in_ = plugged_in.ok();
   if (plugged_in) thread_ = std::jthread([this](const std::stop_token& stop) { play(stop); });
   return plugged_in;
 }
@@ -31,12 +32,14 @@ void LivePort::play(const std::stop_token& stop) {
 void LivePort::bring(const LinePiece& piece) {
   switch (piece.kind) {
     case LinePiece::Kind::kPluggedIn:
-      break;  // as it is from the start
+      if (!plugged_in_) plugged_in_ = port_.plug_in().ok();
+      break;
     case LinePiece::Kind::kBytes:
       port_.send(piece.bytes);
       break;
     case LinePiece::Kind::kPulled:
       port_.pull();
+      plugged_in_ = false;
       break;
   }
 }

@@ -30,6 +30,7 @@ class LivePort {
   Signal signal_;
   LineSource source_;
   PtyPort port_;
+  bool plugged_in_ = false;
   std::jthread thread_;
 };
 

@@ -94,7 +94,8 @@ class FlightFollower {
 
   static bool ended(const fs::path& path) {
     const auto journal = ingest::read_flight_journal(path);
-    return journal && journal->summary.state == record::JournalState::kComplete;
+    return journal && !journal->entries.empty() &&
+           std::holds_alternative<record::Ended>(journal->entries.back());
   }
 
   static std::size_t photos_in(const fs::path& folder) {

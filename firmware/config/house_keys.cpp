@@ -36,8 +36,10 @@ std::vector<Key> measure_keys() {
                 PLUMBLINE_FIELD(measure.enabled)),
       number({"measure", "memory_mb", "How much memory the measuring program may take."},
              kMegabytes, {100, 1'000'000}, PLUMBLINE_FIELD(measure.memory_mb)),
-      number({"measure", "seconds", "How long the measuring program may run."}, kSeconds,
-             {10, 86'400}, PLUMBLINE_FIELD(measure.longest)),
+      number({"measure", "seconds",
+              "How long the measuring program may work on photos that came, or at the end of a "
+              "flight."},
+             kSeconds, {10, 86'400}, PLUMBLINE_FIELD(measure.longest)),
       text(
           {"measure", "command",
            "\"\" starts plumbline measure; \"request\" writes the file that systemd's path unit "

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace plumbline::service {
@@ -12,6 +13,9 @@ namespace {
 constexpr int kUsualWidth_px = 4056;
 constexpr int kUsualHeight_px = 3040;
 constexpr double kBytesPerPixel = 3.0 / 8;  // of a JPEG of much detail
+
+// The flight that is being recorded, and the one before it, which may still be measured.
+constexpr std::size_t kKept = 2;
 
 bool is_flight(const std::string& name) {
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
@@ -51,7 +55,11 @@ int clean_results(Storage& storage, const std::function<bool()>& is_enough) {
   if (!names) return 0;
   std::vector<std::string> flights;
   std::copy_if(names->begin(), names->end(), std::back_inserter(flights), is_flight);
-  if (!flights.empty()) flights.pop_back();
+  // "10000" comes after "9999".
+  std::sort(flights.begin(), flights.end(), [](const std::string& a, const std::string& b) {
+    return std::pair(a.size(), a) < std::pair(b.size(), b);
+  });
+  flights.resize(flights.size() - std::min(flights.size(), kKept));
   int cleaned = 0;
   for (const std::string& flight : flights) {
     if (is_enough()) break;

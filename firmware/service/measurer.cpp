@@ -8,9 +8,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <charconv>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <string_view>
 #include <utility>
 
 namespace plumbline::service {
@@ -32,6 +34,16 @@ constexpr int kIoprioClassIdle = 3 << 13;
 
 constexpr const char* kLog = "/measure.log";
 
+constexpr std::string_view kResult = "Measured from ";
+
+// Of a sentence about a result.
+int photos_of(std::string_view sentence) {
+  int photos = 0;
+  sentence.remove_prefix(kResult.size());
+  std::from_chars(sentence.data(), sentence.data() + sentence.size(), photos);
+  return photos;
+}
+
 // The sentences about results in the log of a process that is still writing it.
 class ResultLines {
  public:
@@ -43,7 +55,7 @@ class ResultLines {
     std::string line;
     while (std::getline(file, line) && !file.eof()) {  // a line that is whole
       read_ += static_cast<std::streamoff>(line.size()) + 1;
-      if (line.starts_with("Measured from ")) return line;
+      if (line.starts_with(kResult)) return line;
     }
     return std::nullopt;
   }
@@ -175,19 +187,24 @@ pid_t Measurer::spawn(const std::string& flight) const {
 
 int Measurer::wait_for(pid_t process, const std::string& log) {
   ResultLines results(log);
-  auto deadline = std::chrono::steady_clock::now() + options_.longest;
+  auto rested = std::chrono::steady_clock::now();  // when nothing was due last, or a result came
+  int measured = 0;
   int status = 0;
   for (;;) {
+    const auto now = std::chrono::steady_clock::now();
     const bool is_over = ::waitpid(process, &status, WNOHANG) == process;
     while (const auto sentence = results.next()) {
+      measured = photos_of(*sentence);
+      rested = now;
       events_.measured(*sentence);
-      deadline = std::chrono::steady_clock::now() + options_.longest;
     }
     if (is_over) return status;
-    bool stop = std::chrono::steady_clock::now() > deadline;
+    bool stop = false;
     {
       const std::lock_guard lock(mutex_);
-      stop = stop || stopping_;
+      const bool is_due = wish_.photos > measured || wish_.landed;
+      if (!is_due) rested = now;
+      stop = stopping_ || now > rested + options_.longest;
     }
     if (stop) {
       ::kill(process, SIGKILL);

@@ -19,7 +19,7 @@ struct MeasurerOptions {
   std::string program;       // plumbline's path; empty: beside this one, else in PATH
   std::string request_file;  // not empty: asks by this file instead of starting a process
   int memory_mb = 1500;
-  std::chrono::seconds longest{900};  // without a result
+  std::chrono::seconds longest{900};  // for photos that came, or for the end of a flight
   int first_at = 3;                   // photos
 };
 

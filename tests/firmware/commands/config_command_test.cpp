@@ -5,12 +5,14 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "tests/firmware/commands/run_command.h"
 
 namespace plumbline::commands {
 namespace {
@@ -31,20 +33,10 @@ class ConfigCommand : public testing::Test {
 
   // The status as the program would end; what it printed is kept.
   int run(std::vector<std::string> arguments) {
-    CLI::App app;
-    int status = -1;
-    add_config(app, status);
-    std::reverse(arguments.begin(), arguments.end());
-    testing::internal::CaptureStderr();
-    testing::internal::CaptureStdout();
-    try {
-      app.parse(arguments);
-    } catch (const CLI::ParseError& error) {
-      status = error.get_exit_code() == 0 ? 0 : 2;
-    }
-    printed = testing::internal::GetCapturedStdout();
-    told = testing::internal::GetCapturedStderr();
-    return status;
+    const CommandRun command = run_command(add_config, std::move(arguments));
+    printed = command.printed;
+    told = command.told;
+    return command.status;
   }
 
   fs::path file;

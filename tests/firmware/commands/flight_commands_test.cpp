@@ -10,6 +10,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "drivers/posix/posix_storage.h"
@@ -17,6 +18,7 @@
 #include "firmware/commands/replay_command.h"
 #include "firmware/commands/status_command.h"
 #include "firmware/flight/session.h"
+#include "tests/firmware/commands/run_command.h"
 #include "tests/firmware/ingest/temporary_folder.h"
 #include "tests/flights/drone.h"
 
@@ -59,22 +61,15 @@ class FlightCommand : public testing::Test {
   fs::path flight() const { return folder_.path() / "0001"; }
 
   int run(std::vector<std::string> arguments) {
-    CLI::App app;
-    int status = -1;
-    add_check(app, status);
-    add_replay(app, status);
-    add_status(app, status);
-    std::reverse(arguments.begin(), arguments.end());
-    testing::internal::CaptureStderr();
-    testing::internal::CaptureStdout();
-    try {
-      app.parse(arguments);
-    } catch (const CLI::ParseError& error) {
-      status = error.get_exit_code() == 0 ? 0 : 2;
-    }
-    printed = testing::internal::GetCapturedStdout();
-    told = testing::internal::GetCapturedStderr();
-    return status;
+    const auto add = [](CLI::App& app, int& status) {
+      add_check(app, status);
+      add_replay(app, status);
+      add_status(app, status);
+    };
+    const CommandRun command = run_command(add, std::move(arguments));
+    printed = command.printed;
+    told = command.told;
+    return command.status;
   }
 
   std::string journal() const {

@@ -5,12 +5,14 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "tests/firmware/commands/run_command.h"
 
 namespace plumbline::commands {
 namespace {
@@ -40,20 +42,9 @@ class SimCommand : public testing::Test {
 
   // The status as the program would end; what went to stderr is kept.
   int run(std::vector<std::string> arguments) {
-    CLI::App app;
-    int status = -1;
-    add_sim(app, status);
-    std::reverse(arguments.begin(), arguments.end());
-    testing::internal::CaptureStderr();
-    testing::internal::CaptureStdout();
-    try {
-      app.parse(arguments);
-    } catch (const CLI::ParseError& error) {
-      status = error.get_exit_code() == 0 ? 0 : 2;
-    }
-    testing::internal::GetCapturedStdout();
-    told = testing::internal::GetCapturedStderr();
-    return status;
+    const CommandRun command = run_command(add_sim, std::move(arguments));
+    told = command.told;
+    return command.status;
   }
   int run_small(const fs::path& out, std::vector<std::string> more = {}) {
     std::vector<std::string> arguments{"sim", out.string(), "--profile",

@@ -10,7 +10,7 @@
 namespace plumbline::service {
 namespace {
 
-constexpr const char* kFlights[] = {"0001", "0002", "0003"};
+constexpr const char* kFlights[] = {"0998", "9998", "9999", "10000"};
 
 void put_flights(Storage& disk) {
   for (const std::string flight : kFlights) {
@@ -30,20 +30,21 @@ std::size_t results_of(Storage& disk, const std::string& flight) {
 TEST(CleanResults, RemovesTheOldestUntilThereIsRoomAndNothingElse) {
   sim::SimDisk disk;
   put_flights(disk);
-  EXPECT_EQ(clean_results(disk, [&] { return results_of(disk, "0001") == 0; }), 1);
-  EXPECT_EQ(results_of(disk, "0001"), 0u);
-  EXPECT_EQ(results_of(disk, "0002"), 2u);
+  EXPECT_EQ(clean_results(disk, [&] { return results_of(disk, "0998") == 0; }), 1);
+  EXPECT_EQ(results_of(disk, "0998"), 0u);
+  EXPECT_EQ(results_of(disk, "9998"), 2u);
   for (const std::string flight : kFlights) {
     EXPECT_TRUE(disk.read(flight + "/flight.journal"));
     EXPECT_TRUE(disk.read(flight + "/photos/0001.jpg"));
   }
 }
 
-TEST(CleanResults, LeavesTheNewestFlightItsResult) {
+TEST(CleanResults, LeavesTheNewestTwoFlightsTheirResults) {
   sim::SimDisk disk;
   put_flights(disk);
   EXPECT_EQ(clean_results(disk, [] { return false; }), 2);
-  EXPECT_EQ(results_of(disk, "0003"), 2u);
+  EXPECT_EQ(results_of(disk, "9999"), 2u);
+  EXPECT_EQ(results_of(disk, "10000"), 2u);
   EXPECT_EQ(clean_results(disk, [] { return false; }), 0) << "what is clean is not counted";
 }
 

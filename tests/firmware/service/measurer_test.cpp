@@ -132,6 +132,19 @@ TEST_F(MeasuringProcess, EndsWhereItTakesTooLong) {
   EXPECT_THAT(said(1)[0], HasSubstr("ended by signal 9"));
 }
 
+TEST_F(MeasuringProcess, MayWaitForTheNextPhotoAsLongAsItTakes) {
+  options_.first_at = 1;
+  options_.longest = 1s;
+  Measurer& measurer = measurer_of("echo Measured from 1 photos: a.; exec sleep 60");
+  measurer.stored("0001");
+  ASSERT_EQ(said(1).size(), 1u);
+  std::this_thread::sleep_for(2500ms);
+  EXPECT_EQ(said(0).size(), 1u) << "nothing is due";
+  measurer.stored("0001");
+  ASSERT_EQ(said(2).size(), 2u);
+  EXPECT_THAT(said(2)[1], HasSubstr("ended by signal 9"));
+}
+
 // tail keeps the last line, here 30 MB of it.
 TEST_F(MeasuringProcess, EndsWhereItTakesTooMuchMemory) {
   options_.first_at = 1;
