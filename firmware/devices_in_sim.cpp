@@ -104,7 +104,7 @@ std::string SimulatedBench::configuration_text() const {
          "/camera.toml\"\n\n"
          "[release]\nby = \"pulse\"\nline = \"simulated\"\n"
          "# A picture takes long to paint; that of a camera is there at once.\n"
-         "longest_delay_s = 5\n\n" +
+         "longest_delay_s = 10\n\n" +
          text("[capture]\nfirst_m = %g\nlast_m = %g\nstep_m = %g\n\n", profile_.from_m,
               profile_.to_m, profile_.step_m) +
          "[recording]\nfolder = \"" + in + "/flights\"\n\n[status]\nfile = \"" + in +
