@@ -116,15 +116,16 @@ std::optional<Motion> Navigator::known_at(HostTime time) const {
   motion.time = time;
   motion.in_enu_m = frame_->enu_of(antenna->position);
   motion.velocity_m_s = antenna->velocity_enu_m_s;
-  motion.covariance_m2 = antenna->covariance_enu_m2 +
-                         antenna->latency_shift_enu_m * antenna->latency_shift_enu_m.transpose();
+  motion.latency_shift_m = antenna->latency_shift_enu_m;
+  motion.covariance_m2 =
+      antenna->covariance_enu_m2 + motion.latency_shift_m * motion.latency_shift_m.transpose();
   motion.height_ellipsoidal_m = antenna->position.height_ellipsoidal_m;
   if (antenna->ahead > nanoseconds{}) {
     const auto foreseen = heights_.after(in_seconds(antenna->ahead));
     motion.in_enu_m.z() += foreseen->height_m - motion.height_ellipsoidal_m;
     motion.velocity_m_s.z() = foreseen->climb_m_s;
     motion.covariance_m2(2, 2) =
-        foreseen->variance_m2 + stated_m2_ + std::pow(antenna->latency_shift_enu_m.z(), 2);
+        foreseen->variance_m2 + stated_m2_ + std::pow(motion.latency_shift_m.z(), 2);
     motion.height_ellipsoidal_m = foreseen->height_m;
   }
   motion.quality = antenna->quality;

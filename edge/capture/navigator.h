@@ -22,6 +22,9 @@ struct Motion {
   Eigen::Vector3d in_enu_m = Eigen::Vector3d::Zero();  // about the first position
   Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();  // of the position
+  // Within the covariance, what the receiver's least latency leaves open: by so much the position
+  // would be further along if it were longer by its sigma. One error, common to the flight.
+  Eigen::Vector3d latency_shift_m = Eigen::Vector3d::Zero();
   double height_ellipsoidal_m = 0;
   FixQuality quality = FixQuality::kNone;
   nanoseconds age{};  // of the newest fix, at that instant

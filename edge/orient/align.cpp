@@ -10,6 +10,7 @@
 
 #include "edge/geometry/rotation.h"
 #include "edge/orient/rays.h"
+#include "edge/orient/stations.h"
 
 namespace plumbline::orient {
 namespace {
@@ -50,7 +51,8 @@ Eigen::Vector3d station_sigma(const Network& network, int slot) {
   const Eigen::Vector3d drift(m.correlated_sigma_horizontal_m, m.correlated_sigma_horizontal_m,
                               m.correlated_sigma_vertical_m);
   const Eigen::Vector3d white = network.photo(slot).station->covariance_m2.diagonal();
-  return (white + drift.cwiseAbs2()).cwiseSqrt().cwiseMax(1e-3);
+  const Eigen::Vector3d delayed = shift_by_delay_sigma_m(network, slot);
+  return (white + drift.cwiseAbs2() + delayed.cwiseAbs2()).cwiseSqrt().cwiseMax(1e-3);
 }
 
 std::vector<Tie> ties_of(const Network& network, const State& state, const State& levered,

@@ -10,6 +10,7 @@
 #include "edge/orient/correlations.h"
 #include "edge/orient/findings.h"
 #include "edge/orient/observation_residuals.h"
+#include "edge/orient/stations.h"
 
 namespace plumbline::orient {
 namespace {
@@ -51,9 +52,7 @@ OrientedPhoto oriented(const Finished& f, int slot) {
           .cwiseMax(0)
           .cwiseSqrt();
   if (const auto& station = f.network.photo(slot).station) {
-    const Eigen::Vector3d late =
-        f.state.delay_s *
-        f.network.photo(slot).velocity_in_enu_m_s.value_or(Eigen::Vector3d::Zero());
+    const Eigen::Vector3d late = f.state.delay_s * velocity_in_enu_m_s(f.network, slot);
     photo.gnss_residual_m = station->antenna_in_enu_m + late - photo.pose.centre_m -
                             photo.pose.ground_from_photo * f.network.problem->lever_arm.in_photo_m;
     photo.station_rejected = weight_of(f.terms.station_weights, slot) == 0;

@@ -12,6 +12,7 @@
 #include "edge/geometry/rotation.h"
 #include "edge/orient/camera_prior.h"
 #include "edge/orient/datum_terms.h"
+#include "edge/orient/stations.h"
 #include "edge/orient/term_parts.h"
 
 namespace plumbline::orient {
@@ -58,10 +59,6 @@ std::vector<int> pose_columns(const Network& network, const std::vector<int>& sl
   return columns;
 }
 
-Eigen::Vector3d velocity(const Photo& photo) {
-  return photo.velocity_in_enu_m_s.value_or(Eigen::Vector3d::Zero());
-}
-
 // Antenna at the exposure = C + R l; a delay of d seconds earlier, when the station was taken, it
 // was V d behind. For R <- exp([r]x) R the derivative by r is -[R l]x. The velocity is taken as
 // known: 0.1 m/s wrong at a delay of 20 ms is 2 mm.
@@ -79,9 +76,9 @@ void add_stations(const Network& network, const State& state, const TermOptions&
     const geometry::Pose& pose = state.poses[at(slots[k])];
     const Eigen::Vector3d arm = pose.ground_from_photo * network.problem->lever_arm.in_photo_m;
     term.residual.segment<3>(row) = pose.centre_m + arm -
-                                    state.delay_s * velocity(network.photo(slots[k])) -
+                                    state.delay_s * velocity_in_enu_m_s(network, slots[k]) -
                                     network.photo(slots[k]).station->antenna_in_enu_m;
-    if (delayed) term.jacobian.block<3, 1>(row, 2 * rows) = -velocity(network.photo(slots[k]));
+    if (delayed) term.jacobian.block<3, 1>(row, 2 * rows) = -velocity_in_enu_m_s(network, slots[k]);
     term.jacobian.block<3, 3>(row, 2 * row).setIdentity();
     term.jacobian.block<3, 3>(row, 2 * row + 3) = -geometry::cross_matrix(arm);
   }

@@ -43,6 +43,7 @@ class ProblemMaker {
     problem_.photos = input.photos;
     problem_.gnss = input.gnss;
     problem_.lever_arm = input.lever_arm;
+    problem_.delay = input.delay;
     for (const NamedPick& pick : input.picks) add_pick(pick);
   }
 

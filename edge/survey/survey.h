@@ -45,6 +45,7 @@ struct Input {
   std::vector<NamedControl> control;
   orient::GnssErrorModel gnss;
   orient::LeverArm lever_arm;
+  orient::Delay delay;
 };
 
 struct Options {

@@ -2,12 +2,17 @@
 #include "firmware/commands/antenna_stations.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "firmware/ingest/station_sigmas.h"
 
 namespace plumbline::commands {
 namespace {
+
+// Of a velocity from positions of a centimetre, a few in a second. What it makes of a common error
+// of time is each photo's own.
+constexpr double kVelocitySigma_m_s = 0.05;
 
 ingest::PhotoFix kind_of(FixQuality quality) {
   if (quality == FixQuality::kFixed) return ingest::PhotoFix::kFixed;
@@ -58,6 +63,7 @@ Status place_antennas(const ingest::AntennaPositions& antenna,
                       std::optional<geodesy::LocalFrame>& frame, survey::Input& survey) {
   if (Status set = set_frame(antenna, frame); !set) return set;
   survey.gnss = {};
+  survey.delay = {0, antenna.common_time_sigma_s};
   for (std::size_t i = 0; i < antenna.photos.size(); ++i) {
     orient::Photo& photo = survey.photos[i];
     photo.station.reset();
@@ -66,7 +72,12 @@ Status place_antennas(const ingest::AntennaPositions& antenna,
     const Eigen::Matrix3d turn = frame->enu_from_enu_at(at->position);
     photo.station = orient::Station{frame->enu_of(at->position),
                                     turn * at->covariance_enu_m2 * turn.transpose()};
-    photo.velocity_in_enu_m_s = at->velocity_enu_m_s;
+    photo.velocity_in_enu_m_s.reset();
+    if (at->velocity_enu_m_s) {
+      photo.velocity_in_enu_m_s = turn * *at->velocity_enu_m_s;
+      photo.station->covariance_m2.diagonal().array() +=
+          std::pow(kVelocitySigma_m_s * antenna.common_time_sigma_s, 2);
+    }
   }
   share_errors(antenna, survey);
   return Done{};

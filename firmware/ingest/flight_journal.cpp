@@ -36,13 +36,26 @@ class Playback {
     }
   }
 
-  std::map<int, AntennaAtPhoto> finish() {
+  struct Places {
+    std::map<int, AntennaAtPhoto> of_photo;
+    double latency_sigma_s = 0;
+  };
+
+  Places finish() {
     settle(HostTime::max());
+    for (auto& [number, at] : places_.of_photo) {
+      if (const Latency& latency = latencies_.at(number); latency.sigma_s < places_.latency_sigma_s)
+        make_its_own(latency, at);
+    }
     return std::move(places_);
   }
-  double latency_sigma_s() const { return latency_sigma_s_; }
 
  private:
+  struct Latency {
+    double sigma_s = 0;
+    Eigen::Vector3d shift_m = Eigen::Vector3d::Zero();  // of the position, by that
+  };
+
   // So long after an exposure the epochs on both sides have arrived.
   static constexpr std::chrono::seconds kLater{2};
 
@@ -81,19 +94,30 @@ class Playback {
         motion->velocity_m_s * std::chrono::duration<double>(taken.exposed_sigma).count();
     AntennaAtPhoto at;
     at.position = frame->geodetic_of(motion->in_enu_m);
-    at.covariance_enu_m2 = motion->covariance_m2 + blur_m * blur_m.transpose();
+    const Latency latency{std::chrono::duration<double>(instant.sigma_latency).count(),
+                          motion->latency_shift_m};
+    at.covariance_enu_m2 = motion->covariance_m2 - latency.shift_m * latency.shift_m.transpose() +
+                           blur_m * blur_m.transpose();
     at.velocity_enu_m_s = motion->velocity_m_s;
     at.quality = motion->quality;
     at.utc = gnss::utc_of(instant.time);
-    latency_sigma_s_ = std::chrono::duration<double>(instant.sigma_latency).count();
-    places_.insert_or_assign(taken.number, at);
+    places_.latency_sigma_s = std::max(places_.latency_sigma_s, latency.sigma_s);
+    places_.of_photo.insert_or_assign(taken.number, at);
+    latencies_.insert_or_assign(taken.number, latency);
+  }
+
+  // A photo of which the latency was better known, by pulses that others lacked, does not share
+  // their error.
+  static void make_its_own(const Latency& latency, AntennaAtPhoto& at) {
+    at.covariance_enu_m2 += latency.shift_m * latency.shift_m.transpose();
+    at.velocity_enu_m_s.reset();
   }
 
   capture::CaptureOptions options_;
   std::optional<capture::Navigator> navigator_;
   std::vector<capture::PhotoTaken> waiting_;
-  std::map<int, AntennaAtPhoto> places_;
-  double latency_sigma_s_ = 0;
+  std::map<int, Latency> latencies_;
+  Places places_;
 };
 
 int number_of(const std::string& photo) {
@@ -167,9 +191,9 @@ AntennaPositions antenna_of_flight(const FlightJournal& journal,
                                    const capture::CaptureOptions& options) {
   Playback playback(options);
   for (const record::Entry& entry : journal.entries) playback.take(entry);
-  const auto places = playback.finish();
+  const auto [places, latency_sigma_s] = playback.finish();
   AntennaPositions antenna;
-  antenna.time_sigma_s = playback.latency_sigma_s();
+  antenna.common_time_sigma_s = latency_sigma_s;
   for (const std::string& photo : photos) {
     const auto place = places.find(number_of(photo));
     if (place == places.end()) {

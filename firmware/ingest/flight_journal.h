@@ -26,7 +26,7 @@ Result<FlightJournal> read_flight_journal(const std::filesystem::path& path);
 
 // Where the antenna was at the exposures of photos by their file names ("0001.jpg"), from all that
 // the receiver said in the flight, before and after them. The receiver's latency (a pulse per
-// second does without) is in time_sigma_s, and in the covariances as if each photo had its own.
+// second does without) is their common error of time.
 AntennaPositions antenna_of_flight(const FlightJournal& journal,
                                    const std::vector<std::string>& photos,
                                    const capture::CaptureOptions& options);

@@ -48,10 +48,11 @@ struct PhotoMoment {
 
 struct AntennaAtPhoto {
   geodesy::Geodetic position;
-  // East, north, up at the position: the receiver's, of interpolation, and velocity times the
-  // sigma of the time (which is common to all photos as far as it is the offset's).
+  // East, north, up at the position: the receiver's, of interpolation, and velocity times what the
+  // time of this exposure alone leaves open.
   Eigen::Matrix3d covariance_enu_m2 = Eigen::Matrix3d::Zero();
-  std::optional<Eigen::Vector3d> velocity_enu_m_s;  // empty at a time mark
+  // Empty where the common error of time does not move it: at a time mark.
+  std::optional<Eigen::Vector3d> velocity_enu_m_s;
   FixQuality quality = FixQuality::kNone;
   UtcTime utc;
   bool sigma_assumed = false;  // the receiver stated none
@@ -59,7 +60,7 @@ struct AntennaAtPhoto {
 
 struct AntennaPositions {
   std::vector<std::optional<AntennaAtPhoto>> photos;  // one per photo asked for, in its order
-  double time_sigma_s = 0;                            // of the exposure in GNSS time
+  double common_time_sigma_s = 0;  // of all exposures in GNSS time alike; in no covariance
   std::optional<gnss::BasePosition> base;
   std::vector<std::string> warnings;  // sentences, those of the log among them
 };

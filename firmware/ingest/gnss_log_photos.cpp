@@ -156,8 +156,8 @@ void warn_of_assumed_sigma(const GnssLog& log, AntennaPositions& result) {
                             "and 1.2 m, single 3 and 6 m).");
 }
 
-AntennaAtPhoto at_photo(const gnss::AntennaState& state, UtcTime utc, double time_sigma_s) {
-  const Eigen::Vector3d moved_m = state.velocity_enu_m_s * time_sigma_s;
+AntennaAtPhoto at_photo(const gnss::AntennaState& state, UtcTime utc, double own_time_sigma_s) {
+  const Eigen::Vector3d moved_m = state.velocity_enu_m_s * own_time_sigma_s;
   return {state.position,
           state.covariance_enu_m2 + moved_m * moved_m.transpose(),
           state.velocity_enu_m_s,
@@ -166,24 +166,23 @@ AntennaAtPhoto at_photo(const gnss::AntennaState& state, UtcTime utc, double tim
           state.sigma_assumed};
 }
 
-void set_clock(const std::optional<TimeOffset>& offset, Exposures& exposures,
-               AntennaPositions& result) {
-  double sigma_s = offset ? offset->sigma_s : kUnstatedClockSigma_s;
+// The sigma of each exposure's own time.
+double set_clock(const std::optional<TimeOffset>& offset, Exposures& exposures,
+                 AntennaPositions& result) {
+  result.common_time_sigma_s = offset ? offset->sigma_s : kUnstatedClockSigma_s;
   if (offset) {
     shift(exposures, in_microseconds(offset->seconds));
   } else {
     result.warnings.push_back(
         "No --time-offset was given: the camera's clock was taken as true to 0.1 s (1 sigma).");
   }
-  if (exposures.whole_seconds) {
-    sigma_s = std::hypot(sigma_s, kWholeSecondSigma_s);
-    if (!offset) shift(exposures, kHalfSecond);
-    result.warnings.push_back(
-        std::string("The photos' times are whole seconds (no SubSecTimeOriginal): ") +
-        (offset ? "" : "half a second was added, and ") +
-        "0.29 s went into the sigma of each position, times the speed.");
-  }
-  result.time_sigma_s = sigma_s;
+  if (!exposures.whole_seconds) return 0;
+  if (!offset) shift(exposures, kHalfSecond);
+  result.warnings.push_back(
+      std::string("The photos' times are whole seconds (no SubSecTimeOriginal): ") +
+      (offset ? "" : "half a second was added, and ") +
+      "0.29 s went into the sigma of each position, times the speed.");
+  return kWholeSecondSigma_s;
 }
 
 Result<AntennaPositions> interpolated(const GnssLog& log, const std::vector<PhotoMoment>& photos,
@@ -195,7 +194,7 @@ Result<AntennaPositions> interpolated(const GnssLog& log, const std::vector<Phot
   if (!exposures.zone_known && !offset) return ask_for_zone(log, exposures, track);
 
   AntennaPositions result;
-  set_clock(offset, exposures, result);
+  const double own_sigma_s = set_clock(offset, exposures, result);
   if (!log.date_known) {
     if (const Status moved = move_to_log_days(log, track, exposures); !moved) return moved.error();
   }
@@ -203,7 +202,7 @@ Result<AntennaPositions> interpolated(const GnssLog& log, const std::vector<Phot
   for (const auto& time : exposures.times) {
     const auto state = time ? track.at(*time) : std::nullopt;
     result.photos.emplace_back();
-    if (state) result.photos.back() = at_photo(*state, *time, result.time_sigma_s);
+    if (state) result.photos.back() = at_photo(*state, *time, own_sigma_s);
     any = any || state.has_value();
   }
   if (!any) return no_photo_in_log(log, exposures, track);

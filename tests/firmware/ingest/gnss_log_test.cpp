@@ -217,15 +217,29 @@ TEST_F(GnssLogFile, TakesTheHourFromThePhotosGpsTime) {
   }
 }
 
-TEST_F(GnssLogFile, PutsTheSigmaOfTheTimeIntoThePositionAlongTheVelocity) {
+// By hand, the derivative of climb().
+double climb_m_s(double seconds) { return 2.0 + 0.8 * std::cos(seconds); }
+
+TEST_F(GnssLogFile, LeavesTheSigmaOfTheOffsetToBeOneErrorOfAllPhotos) {
   const GnssLog nmea = log("a.nmea", nmea_log(Date::kRmc));
   const auto sharp = antenna_at_photos(nmea, photos({20.1}), TimeOffset{0, 0});
   const auto blurred = antenna_at_photos(nmea, photos({20.1}), TimeOffset{0, 0.1});
+  EXPECT_EQ(sharp->common_time_sigma_s, 0);
+  EXPECT_EQ(blurred->common_time_sigma_s, 0.1);
+  EXPECT_EQ(blurred->photos[0]->covariance_enu_m2, sharp->photos[0]->covariance_enu_m2);
+  EXPECT_NEAR((*blurred->photos[0]->velocity_enu_m_s).z(), climb_m_s(20.1), 0.02);
+}
+
+TEST_F(GnssLogFile, PutsWhatACutStampLeavesOpenIntoThePositionAlongTheVelocity) {
+  const GnssLog nmea = log("a.nmea", nmea_log(Date::kRmc));
+  std::vector<PhotoMoment> cut = photos({20.0});
+  cut[0].time.has_subseconds = false;
+  const auto sharp = antenna_at_photos(nmea, photos({20.0}), TimeOffset{0, 0.1});
+  const auto blurred = antenna_at_photos(nmea, cut, TimeOffset{0, 0.1});
+  EXPECT_EQ(blurred->common_time_sigma_s, 0.1);
   const Eigen::Matrix3d added =
       blurred->photos[0]->covariance_enu_m2 - sharp->photos[0]->covariance_enu_m2;
-  const double climb_m_s = 2.0 + 0.8 * std::cos(20.1);  // by hand, the derivative of climb()
-  EXPECT_NEAR((*blurred->photos[0]->velocity_enu_m_s).z(), climb_m_s, 0.02);
-  EXPECT_NEAR(std::sqrt(added(2, 2)), 0.1 * climb_m_s, 0.002);
+  EXPECT_NEAR(std::sqrt(added(2, 2)), climb_m_s(20.0) / std::sqrt(12.0), 0.01);
 }
 
 TEST_F(GnssLogFile, SaysWhatItAssumedOfTheClock) {
@@ -233,7 +247,7 @@ TEST_F(GnssLogFile, SaysWhatItAssumedOfTheClock) {
       antenna_at_photos(log("a.nmea", nmea_log(Date::kRmc)), photos({20.1}), std::nullopt);
   ASSERT_TRUE(found);
   EXPECT_TRUE(any_mentions(found->warnings, "0.1 s"));
-  EXPECT_EQ(found->time_sigma_s, 0.1);
+  EXPECT_EQ(found->common_time_sigma_s, 0.1);
 }
 
 TEST_F(GnssLogFile, AddsHalfASecondToStampsCutToWholeSeconds) {
@@ -403,7 +417,8 @@ TEST_F(GnssLogFile, StatesSigmasThatHold) {
     const auto found = antenna_at_photos(noisy, moments, TimeOffset{0, 0.05});
     ASSERT_TRUE(found);
     for (std::size_t i = 0; i < when.size(); ++i) {
-      const Eigen::Vector3d error_m = foot().enu_of(found->photos[i]->position) - climb(when[i]);
+      const Eigen::Vector3d error_m = foot().enu_of(found->photos[i]->position) - climb(when[i]) -
+                                      clock_s * found->photos[i]->velocity_enu_m_s.value();
       for (int axis = 0; axis < 3; ++axis) {
         const double ratio =
             std::abs(error_m[axis]) / std::sqrt(found->photos[i]->covariance_enu_m2(axis, axis));
