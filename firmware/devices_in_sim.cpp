@@ -11,8 +11,10 @@
 #include <fstream>
 #include <utility>
 
+#include "edge/timing/gnss_clock.h"
 #include "firmware/ingest/camera_toml.h"
 #include "sim/gnss_stream.h"
+#include "sim/random.h"
 #include "sim/release_wire.h"
 #include "sim/truth.h"
 
@@ -43,6 +45,15 @@ Status write(const fs::path& path, const std::string& text) {
   file.close();
   if (file.good()) return Done{};
   return Error{"Cannot write " + path.string() + "; is the disk full, or the folder another's?"};
+}
+
+// Receivers differ: by as much as a configuration that does not know its own takes for granted.
+std::chrono::nanoseconds least_latency(std::uint64_t seed) {
+  const timing::Latency usual;
+  sim::Random random(seed, 0x1A7E);
+  const auto off = std::chrono::duration<double>(usual.sigma) * random.normal();
+  return std::clamp(usual.value + std::chrono::duration_cast<std::chrono::nanoseconds>(off),
+                    usual.value / 4, usual.value * 2);
 }
 
 [[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...) {
@@ -122,6 +133,7 @@ Status SimulatedBench::start() {
 sim::LineSource SimulatedBench::receiver() const {
   sim::GnssStreamOptions options;
   options.fixed_sigma = profile_.gnss_error.white;
+  options.least_latency = least_latency(seed_);
   options.host_at_start = begun_;
   options.utc_at_start = std::chrono::floor<std::chrono::seconds>(clock_.wall().wall);
   const auto path = [this](double seconds) { return flight_.antenna_at(seconds); };
