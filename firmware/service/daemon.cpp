@@ -22,8 +22,9 @@ std::string boot_id() {
 // Without a calibration: a usual lens, known to a twentieth.
 geometry::Camera usual_camera(const CameraOptions& options) {
   geometry::Camera camera;
-  camera.width_px = options.width_px.value_or(4056);
-  camera.height_px = options.height_px.value_or(3040);
+  const PhotoSize size = photo_size(options);
+  camera.width_px = size.width_px;
+  camera.height_px = size.height_px;
   auto& f = camera.interior[geometry::kFocalLength];
   f = 0.8 * camera.width_px;
   return camera;
@@ -80,6 +81,7 @@ Result<std::unique_ptr<Daemon>> Daemon::start(const config::Config& config, cons
   }
   daemon->session_ = std::make_unique<flight::Session>(options, devices, daemon->events());
   if (const Status started = daemon->session_->start(); !started) return started.error();
+  daemon->make_room();
   daemon->look_at_space();
   return daemon;
 }
@@ -127,7 +129,7 @@ void Daemon::tell(const capture::Decision& decision) {
 
 flight::SessionEvents Daemon::events() {
   flight::SessionEvents events;
-  events.heard = [this](const capture::Input& input) { board_.heard(input); };
+  events.heard = [this](const capture::Input& input) { heard(input); };
   events.decided = [this](const capture::Decision& decision) {
     board_.decided(decision);
     tell(decision);
@@ -146,26 +148,43 @@ flight::SessionEvents Daemon::events() {
   events.ended = [this](const std::string& folder) {
     board_.ended(folder);
     own_.ended(folder);
+    make_room();
     look_at_space();
     if (measurer_) measurer_->ended(folder);
   };
   return events;
 }
 
-void Daemon::look_at_space() {
-  Storage& storage = devices_.storage;
-  const std::int64_t planned = photos_planned(config_);
-  if (config_.recording.clean_results) {
-    const int cleaned = clean_results(
-        storage, [&] { return photos_that_fit(storage, config_).value_or(planned) >= planned; });
-    if (cleaned > 0) tell("The results of " + std::to_string(cleaned) + " old flights made room.");
+void Daemon::heard(const capture::Input& input) {
+  board_.heard(input);
+  if (const auto* frame = std::get_if<capture::FrameSeen>(&input.what)) {
+    const bool tells = frame->rows > 1;  // else the camera keeps its pictures
+    if (tells && std::exchange(rows_seen_, frame->rows) != frame->rows) look_at_space();
+  } else if (std::holds_alternative<capture::PilotSeen>(input.what)) {
+    look_at_space();  // an autopilot that was not there before, or is armed now
   }
-  const auto photos = photos_that_fit(storage, config_);
-  if (!photos) return;
-  board_.space(*photos, planned);
-  if (*photos >= planned || devices_.pilot == nullptr) return;
-  devices_.pilot->say(PilotSeverity::kWarning, "Disk: room for " + std::to_string(*photos) +
-                                                   " of " + std::to_string(planned) + " photos");
+}
+
+Daemon::Space Daemon::space() const {
+  return {photos_that_fit(devices_.storage, photo_size(config_.camera.options, rows_seen_),
+                          config_.recording.keep_free_mb),
+          photos_planned(config_.capture.plan)};
+}
+
+void Daemon::make_room() {
+  if (!config_.recording.clean_results) return;
+  const int cleaned = clean_results(devices_.storage, [this] { return space().is_enough(); });
+  if (cleaned > 0) tell("The results of " + std::to_string(cleaned) + " old flights made room.");
+}
+
+void Daemon::look_at_space() {
+  const Space found = space();
+  if (!found.photos) return;
+  board_.space(*found.photos, found.planned);
+  if (found.is_enough() || devices_.pilot == nullptr) return;
+  devices_.pilot->say(PilotSeverity::kWarning, "Disk: room for " + std::to_string(*found.photos) +
+                                                   " of " + std::to_string(found.planned) +
+                                                   " photos");
 }
 
 void Daemon::run() {

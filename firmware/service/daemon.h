@@ -52,6 +52,15 @@ class Daemon {
   flight::SessionEvents events();
   void tell(const std::string& sentence);
   void tell(const capture::Decision& decision);
+  void heard(const capture::Input& input);
+
+  struct Space {
+    std::optional<std::int64_t> photos;  // that fit; empty where the disk does not say
+    std::int64_t planned = 0;
+    bool is_enough() const { return photos.value_or(planned) >= planned; }
+  };
+  Space space() const;
+  void make_room();
   void look_at_space();
 
   config::Config config_;
@@ -60,6 +69,7 @@ class Daemon {
   DaemonEvents own_;
   std::mutex told_mutex_;
   StatusBoard board_;
+  std::optional<int> rows_seen_;  // of the camera's frames
   std::unique_ptr<StatusServer> server_;
   std::unique_ptr<Measurer> measurer_;
   std::unique_ptr<Adviser> adviser_;

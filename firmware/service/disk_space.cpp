@@ -2,6 +2,7 @@
 #include "firmware/service/disk_space.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -10,8 +11,10 @@
 namespace plumbline::service {
 namespace {
 
-constexpr int kUsualWidth_px = 4056;
-constexpr int kUsualHeight_px = 3040;
+constexpr PhotoSize kUsual{4056, 3040};
+constexpr double kWidestShape = 16.0 / 9;
+constexpr double kGridFlight_s = 1800;
+constexpr double kGridSpeed_m_s = 5;
 constexpr double kBytesPerPixel = 3.0 / 8;  // of a JPEG of much detail
 
 // The flight that is being recorded, and the one before it, which may still be measured.
@@ -34,20 +37,26 @@ bool clean_result(Storage& storage, const std::string& folder) {
 
 }  // namespace
 
-std::optional<std::int64_t> photos_that_fit(Storage& storage, const config::Config& config) {
+PhotoSize photo_size(const CameraOptions& options, std::optional<int> rows_seen) {
+  PhotoSize size = kUsual;
+  if (rows_seen) size = {static_cast<int>(std::lround(kWidestShape * *rows_seen)), *rows_seen};
+  return {options.width_px.value_or(size.width_px), options.height_px.value_or(size.height_px)};
+}
+
+std::optional<std::int64_t> photos_that_fit(Storage& storage, const PhotoSize& photo,
+                                            double keep_free_mb) {
   const auto free = storage.free_bytes();
   if (!free) return std::nullopt;
-  const CameraOptions& camera = config.camera.options;
-  const double photo_bytes = kBytesPerPixel * camera.width_px.value_or(kUsualWidth_px) *
-                             camera.height_px.value_or(kUsualHeight_px);
-  const double kept_bytes = 1e6 * config.recording.keep_free_mb;
-  const double room_bytes = std::max(0.0, static_cast<double>(*free) - kept_bytes);
+  const double photo_bytes = kBytesPerPixel * photo.width_px * photo.height_px;
+  const double room_bytes = std::max(0.0, static_cast<double>(*free) - 1e6 * keep_free_mb);
   return static_cast<std::int64_t>(room_bytes / photo_bytes);
 }
 
-std::int64_t photos_planned(const config::Config& config) {
-  const capture::CapturePlan& plan = config.capture.plan;
-  return static_cast<std::int64_t>(plan.heights_m.size()) + (plan.aside_m ? 1 : 0);
+std::int64_t photos_planned(const capture::CapturePlan& plan) {
+  double photos = static_cast<double>(plan.heights_m.size()) + (plan.aside_m ? 1 : 0);
+  if (plan.every) photos += kGridFlight_s / in_seconds(*plan.every);
+  if (plan.every_m) photos += kGridFlight_s * kGridSpeed_m_s / *plan.every_m;
+  return static_cast<std::int64_t>(std::ceil(photos));
 }
 
 int clean_results(Storage& storage, const std::function<bool()>& is_enough) {

@@ -10,12 +10,21 @@
 
 namespace plumbline::service {
 
-// How many more photos of the configured camera fit on the disk beside what is to stay free. Empty
-// where the disk does not say.
-std::optional<std::int64_t> photos_that_fit(Storage& storage, const config::Config& config);
+// The size of the photos: as configured, else as the rows of the camera's frames tell, else usual.
+struct PhotoSize {
+  int width_px = 0;
+  int height_px = 0;
+};
+PhotoSize photo_size(const CameraOptions& options, std::optional<int> rows_seen = {});
 
-// How many a flight as configured takes: heights and one side-step. Grid flights have no end.
-std::int64_t photos_planned(const config::Config& config);
+// How many more photos of that size fit on the disk beside what is to stay free. Empty where the
+// disk does not say.
+std::optional<std::int64_t> photos_that_fit(Storage& storage, const PhotoSize& photo,
+                                            double keep_free_mb);
+
+// How many a flight as configured takes: heights and one side-step; where photos are taken by time
+// or distance, those of half an hour at 5 metres per second besides.
+std::int64_t photos_planned(const capture::CapturePlan& plan);
 
 // Removes the files in FLIGHT/result of one flight after the other, the oldest first and never
 // those of the newest two, until `is_enough`. Nothing else is touched. Returns how many results

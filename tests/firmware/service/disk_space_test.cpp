@@ -59,19 +59,33 @@ TEST(CleanResults, TouchesNoFolderThatIsNoFlight) {
 
 TEST(PhotosThatFit, AreCountedBesideWhatIsToStayFree) {
   sim::SimDisk disk(30'000'000'000);
-  config::Config config;
-  config.camera.options.width_px = 4000;
-  config.camera.options.height_px = 2000;  // 3 MB a photo
-  config.recording.keep_free_mb = 0;
+  const PhotoSize three_megabytes{4000, 2000};
   const auto free = disk.free_bytes();
   ASSERT_TRUE(free);
-  const auto photos = photos_that_fit(disk, config);
+  const auto photos = photos_that_fit(disk, three_megabytes, 0);
   ASSERT_TRUE(photos);
   EXPECT_EQ(*photos, static_cast<std::int64_t>(*free / 3'000'000));
-  config.recording.keep_free_mb = 10'000'000;
-  EXPECT_EQ(photos_that_fit(disk, config), 0);
-  config.capture.plan.heights_m = {30, 40};
-  EXPECT_EQ(photos_planned(config), 3);
+  EXPECT_EQ(photos_that_fit(disk, three_megabytes, 10'000'000), 0);
+}
+
+TEST(PhotoSize, IsAsConfiguredElseAsTheCameraShows) {
+  CameraOptions options;
+  EXPECT_EQ(photo_size(options).height_px, 3040);
+  EXPECT_EQ(photo_size(options, 900).height_px, 900);
+  EXPECT_EQ(photo_size(options, 900).width_px, 1600);
+  options.width_px = 1200;
+  EXPECT_EQ(photo_size(options, 900).width_px, 1200);
+}
+
+TEST(PhotosPlanned, AreThoseOfTheHeightsTheSideStepAndHalfAnHourOfGrid) {
+  capture::CapturePlan plan;
+  plan.heights_m = {30, 40};
+  EXPECT_EQ(photos_planned(plan), 3);
+  plan.aside_m.reset();
+  plan.every = std::chrono::seconds(10);
+  EXPECT_EQ(photos_planned(plan), 182);
+  plan.every_m = 50;
+  EXPECT_EQ(photos_planned(plan), 362);
 }
 
 }  // namespace

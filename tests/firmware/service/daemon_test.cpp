@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// The daemon with the devices of this machine: a port that is not there, and an autopilot by UDP.
+#include "firmware/service/daemon.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "edge/mavlink/frame_reader.h"
+#include "edge/mavlink/messages.h"
+#include "firmware/devices_on_board.h"
+#include "tests/firmware/ingest/temporary_folder.h"
+#include "tests/talk/pilot_talk.h"
+#include "tests/talk/udp_peer.h"
+
+namespace plumbline::service {
+namespace {
+
+using namespace std::chrono_literals;
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr int kOwnSystem = 7;
+
+// What a pilot sees of the texts that come.
+class Screen {
+ public:
+  // Until one holds `part`, for so many tenths of a second at most.
+  std::vector<std::string> texts_until(const std::string& part, int tenths = 100) {
+    texts_.clear();
+    const auto holds = [&](const std::string& text) {
+      return text.find(part) != std::string::npos;
+    };
+    for (int k = 0; k < tenths && std::none_of(texts_.begin(), texts_.end(), holds); ++k) {
+      reader_.feed(vehicle_.receive(100ms));
+    }
+    return texts_;
+  }
+
+  void say_heartbeat(bool armed) {
+    talk::PilotSender sender;
+    vehicle_.send_to(vehicle_.sender_port(), talk::vehicle_heartbeat(armed, sender));
+  }
+
+  int port() const { return vehicle_.port(); }
+  int sender_system() const { return sender_system_; }
+
+ private:
+  void take(const mavlink::Frame& frame) {
+    sender_system_ = frame.system_id;
+    if (frame.id != mavlink::kStatusText) return;
+    if (const auto status = mavlink::status_text_of(frame)) texts_.push_back(status->text);
+  }
+
+  talk::UdpPeer vehicle_;
+  mavlink::FrameReader reader_{[this](const mavlink::Frame& frame) { take(frame); }};
+  std::vector<std::string> texts_;
+  int sender_system_ = 0;
+};
+
+class DaemonOnBoard : public testing::Test {
+ protected:
+  DaemonOnBoard() {
+    std::filesystem::create_directories(folder_ / "flights");
+    config_.recording.folder = folder_ / "flights";
+    config_.status.file = folder_ / "status.json";
+    config_.status.socket = folder_ / "socket";
+    config_.measure.enabled = false;
+    config_.capture.plan.heights_m = {30, 40};
+  }
+
+  void start() {
+    clock_ = make_clock();
+    storage_ = open_folder(config_.recording.folder).value();
+    receiver_ = make_receiver(folder_ / "no-receiver", *clock_).value();
+    pilot_ =
+        make_pilot_link("udp://127.0.0.1:" + std::to_string(screen_.port()), kOwnSystem, *clock_)
+            .value();
+    flight::Devices devices{*clock_, *storage_, *receiver_};
+    devices.pilot = pilot_.get();
+    auto daemon = Daemon::start(config_, "", devices);
+    ASSERT_TRUE(daemon) << daemon.error().sentence;
+    daemon_ = std::move(*daemon);
+    thread_ = std::thread([this] { daemon_->run(); });
+  }
+
+  ~DaemonOnBoard() override {
+    if (!daemon_) return;
+    daemon_->stop();
+    thread_.join();
+  }
+
+  ingest::TemporaryFolder folder_;
+  config::Config config_;
+  Screen screen_;
+  std::unique_ptr<Clock> clock_;
+  std::unique_ptr<Storage> storage_;
+  std::unique_ptr<GnssReceiver> receiver_;
+  std::unique_ptr<PilotLink> pilot_;
+  std::unique_ptr<Daemon> daemon_;
+  std::thread thread_;
+};
+
+TEST_F(DaemonOnBoard, TellsThePilotOfAFullDiskAtOnceAndAgainWhenTheVehicleIsArmed) {
+  config_.recording.keep_free_mb = 1e9;
+  start();
+  const std::string full = "Disk: room for 0 of 3 photos";
+  EXPECT_THAT(screen_.texts_until(full), Contains(full));
+  EXPECT_EQ(screen_.sender_system(), kOwnSystem) << "no vehicle was heard yet";
+  screen_.say_heartbeat(false);
+  EXPECT_THAT(screen_.texts_until(full), Contains(full));
+  screen_.say_heartbeat(true);
+  EXPECT_THAT(screen_.texts_until(full), Contains(full));
+  EXPECT_THAT(daemon_->board().json(), HasSubstr("\"free_photos\":0"));
+}
+
+TEST_F(DaemonOnBoard, SaysNothingOfADiskWithRoom) {
+  config_.recording.keep_free_mb = 0;
+  start();
+  EXPECT_THAT(screen_.texts_until("Disk", 15), Not(Contains(HasSubstr("Disk"))));
+  screen_.say_heartbeat(true);
+  EXPECT_THAT(screen_.texts_until("Disk", 15), Not(Contains(HasSubstr("Disk"))));
+}
+
+}  // namespace
+}  // namespace plumbline::service
