@@ -17,7 +17,7 @@ using orient::testing::MadeFlight;
 constexpr int kPose = 6;
 constexpr int kOwn = kInteriorCount + kPose;  // of one ray, besides its point
 // What holds a target that has no rays, or a datum that nothing fixes: next to nothing.
-constexpr double kNothing = 1e-7;
+constexpr double kNothing = 1e-5;
 constexpr double kOwnHeadingShare = 0.2;
 constexpr double kLeastSigmaM = 1e-4;  // stations and control are never taken as better
 
