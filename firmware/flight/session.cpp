@@ -57,15 +57,6 @@ Status Session::start() {
 }
 
 void Session::start_workers() {
-  pulse_worker_ =
-      std::make_unique<Worker>(devices_.clock, Worker::Work{[this] {
-                                                              if (pulses_wanted_.load() == 0)
-                                                                return false;
-                                                              --pulses_wanted_;
-                                                              pulse();
-                                                              return true;
-                                                            },
-                                                            [] { return HostTime::max(); }});
   encode_worker_ = std::make_unique<Worker>(
       devices_.clock,
       Worker::Work{[this] { return encoder_.work(); }, [] { return HostTime::max(); }});
@@ -78,10 +69,18 @@ void Session::start_workers() {
                                    }});
 }
 
+void Session::start_pulse_worker() {
+  const auto give_one = [this] {
+    if (pulses_wanted_.load() == 0) return false;
+    --pulses_wanted_;
+    pulse();
+    return true;
+  };
+  pulse_worker_ = std::make_unique<Worker>(devices_.clock,
+                                           Worker::Work{give_one, [] { return HostTime::max(); }});
+}
+
 void Session::start_devices(Status& status) {
-  const Status receiver =
-      devices_.receiver.start([this](ReceiverEvent event) { hear(std::move(event)); });
-  if (!receiver) status = receiver;
   if (devices_.camera != nullptr) {
     const Status camera = devices_.camera->start(
         options_.camera, [this](CameraEvent event) { hear(std::move(event)); });
@@ -92,6 +91,11 @@ void Session::start_devices(Status& status) {
         devices_.pilot->start([this](PilotEvent event) { hear(std::move(event)); });
     if (!pilot) status = pilot;
   }
+  const std::unique_ptr<UrgentThread> urgent = run_urgently();
+  if (options_.threads) start_pulse_worker();
+  const Status receiver =
+      devices_.receiver.start([this](ReceiverEvent event) { hear(std::move(event)); });
+  if (!receiver) status = receiver;
   listen(devices_.release, true, status);
   listen(devices_.pulse_per_second, false, status);
 }
@@ -280,7 +284,19 @@ HostTime Session::due() const {
   return options_.threads ? decisions : std::min(decisions, disk_due());
 }
 
+// This thread and those that bring a fix to it and take a pulse from it: a decision is late by as
+// long as encoding or measuring hold the processor. Nothing is to be hurried in a simulation.
+std::unique_ptr<UrgentThread> Session::run_urgently() const {
+  return options_.threads ? std::make_unique<UrgentThread>() : nullptr;
+}
+
 void Session::run(HostTime until) {
+  const std::unique_ptr<UrgentThread> urgent = run_urgently();
+  if (urgent && !urgent->is_allowed()) {
+    say(record::Severity::kInfo, "computer",
+        "Real-time priority is not allowed (LimitRTPRIO): where the processor is busy, a photo may "
+        "be some milliseconds late.");
+  }
   while (!stopping_ && devices_.clock.now() < until) {
     while (auto event = queue_.pop()) take(std::move(*event));
     if (devices_.clock.now() >= loop_->due()) loop_->tick();

@@ -21,6 +21,7 @@
 #include "firmware/flight/capture_loop.h"
 #include "firmware/flight/photo_encoder.h"
 #include "firmware/flight/recorder.h"
+#include "firmware/flight/urgent_thread.h"
 #include "firmware/flight/worker.h"
 
 namespace plumbline::flight {
@@ -96,6 +97,8 @@ class Session {
   using Event = std::variant<DeviceEvent, FromDisk, FlightEnded, record::Message>;
 
   void start_workers();
+  void start_pulse_worker();
+  std::unique_ptr<UrgentThread> run_urgently() const;
   void start_devices(Status& status);
   void listen(TriggerLine* line, bool is_shutter, Status& status);
   std::shared_ptr<Recorder> make_recorder(std::optional<OpenFlight> flight);
