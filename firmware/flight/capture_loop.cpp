@@ -14,6 +14,8 @@ struct Match : Cases... {
 template <class... Cases>
 Match(Cases...) -> Match<Cases...>;
 
+constexpr std::size_t kMostAtOnce = 16;  // decisions that follow from one input
+
 record::Severity severity_of(ReceiverState state) {
   return state == ReceiverState::kPosition ? record::Severity::kInfo : record::Severity::kWarning;
 }
@@ -27,7 +29,9 @@ record::Severity severity_of(CameraState state) {
 
 CaptureLoop::CaptureLoop(const capture::CaptureOptions& options, const Clock& clock,
                          CaptureActions actions)
-    : clock_(clock), actions_(std::move(actions)), decider_(options) {}
+    : clock_(clock), actions_(std::move(actions)), decider_(options) {
+  decisions_.reserve(kMostAtOnce);
+}
 
 void CaptureLoop::begin(const std::optional<capture::Resumed>& resumed,
                         const std::deque<capture::Input>& before) {

@@ -10,6 +10,9 @@
 namespace plumbline::flight {
 namespace {
 
+// Of entries, between two looks of the disk's thread.
+constexpr std::size_t kHandedAtATime = 64u << 10;
+
 std::string_view text_of(const std::vector<std::uint8_t>& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
@@ -23,6 +26,7 @@ Recorder::Recorder(Storage& storage, const Clock& clock, std::optional<OpenFligh
       options_(options),
       sink_(std::move(sink)),
       synced_(clock.now()) {
+  handed_.reserve(kHandedAtATime);  // whoever decides does not wait for memory either
   if (!flight) return;
   folder_ = std::move(flight->folder);
   sequence_ = flight->next_sequence;
