@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -12,6 +11,7 @@
 #include "edge/base/time.h"
 #include "edge/capture/decisions.h"
 #include "edge/capture/inputs.h"
+#include "edge/record/sha256.h"
 
 namespace plumbline::record {
 
@@ -39,7 +39,7 @@ struct Stored {
   int number = 0;
   std::string name;  // "photos/0001.jpg"
   std::uint64_t length = 0;
-  std::array<std::uint8_t, 32> sha256{};
+  Sha256 sha256{};
 };
 
 enum class Severity { kInfo, kWarning, kFault };

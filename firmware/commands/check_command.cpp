@@ -10,10 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "edge/record/sha256.h"
 #include "firmware/commands/journal_text.h"
 #include "firmware/commands/run_report.h"
+#include "firmware/ingest/file_hash.h"
 #include "firmware/ingest/flight_journal.h"
-#include "firmware/ingest/sha256.h"
 
 namespace plumbline::commands {
 namespace {
@@ -37,16 +38,6 @@ struct Findings {
   std::vector<std::string> not_stored;  // photos taken that never reached the disk
 };
 
-std::string hex_of(const std::array<std::uint8_t, 32>& hash) {
-  std::string text;
-  for (const std::uint8_t byte : hash) {
-    char hex[4];
-    std::snprintf(hex, sizeof hex, "%02x", static_cast<unsigned>(byte));
-    text += hex;
-  }
-  return text;
-}
-
 std::string trouble_with(const fs::path& flight, const record::Stored& stored) {
   std::error_code error;
   const fs::path path = flight / stored.name;
@@ -57,7 +48,7 @@ std::string trouble_with(const fs::path& flight, const record::Stored& stored) {
   }
   const auto hash = ingest::sha256_of_file(path);
   if (!hash) return hash.error().sentence;
-  return *hash == hex_of(stored.sha256) ? "" : stored.name + " is not what was stored.";
+  return *hash == record::in_hex(stored.sha256) ? "" : stored.name + " is not what was stored.";
 }
 
 class Count {

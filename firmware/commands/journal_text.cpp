@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <sstream>
 
+#include "edge/record/sha256.h"
+
 namespace plumbline::commands {
 namespace {
 
@@ -167,17 +169,11 @@ struct EntryText {
     return Line(bytes.arrival, "bytes").with("are", quoted(bytes.bytes)).done();
   }
   std::string operator()(const record::Stored& stored) const {
-    std::string hash;
-    for (const std::uint8_t byte : stored.sha256) {
-      char hex[4];
-      std::snprintf(hex, sizeof hex, "%02x", static_cast<unsigned>(byte));
-      hash += hex;
-    }
     return Line(stored.time, "stored")
         .count("photo", stored.number)
         .with("name", stored.name)
         .count("bytes", static_cast<long long>(stored.length))
-        .with("sha256", hash)
+        .with("sha256", record::in_hex(stored.sha256))
         .done();
   }
   std::string operator()(const record::Message& message) const {

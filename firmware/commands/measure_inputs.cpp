@@ -10,11 +10,11 @@
 #include "firmware/commands/lever_arm.h"
 #include "firmware/config/config_toml.h"
 #include "firmware/ingest/camera_toml.h"
+#include "firmware/ingest/file_hash.h"
 #include "firmware/ingest/flight_journal.h"
 #include "firmware/ingest/gnss_log.h"
 #include "firmware/ingest/named_points.h"
 #include "firmware/ingest/photo_folder.h"
-#include "firmware/ingest/sha256.h"
 #include "firmware/ingest/starting_camera.h"
 #include "firmware/ingest/stations.h"
 

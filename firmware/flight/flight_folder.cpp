@@ -13,7 +13,7 @@
 #include "edge/capture/ground.h"
 #include "edge/gnss/antenna_track.h"
 #include "edge/record/journal.h"
-#include "firmware/flight/sha256.h"
+#include "edge/record/sha256.h"
 
 namespace plumbline::flight {
 namespace {
@@ -159,7 +159,8 @@ Status find_photos(Storage& storage, const std::string& folder, Story& story, Op
     if (number == 0 || story.stored.contains(number)) continue;
     const auto bytes = storage.read(path);
     if (!bytes) return bytes.error();
-    record::Stored stored{HostTime{}, number, "photos/" + name, bytes->size(), sha256(*bytes)};
+    record::Stored stored{HostTime{}, number, "photos/" + name, bytes->size(),
+                          record::sha256(*bytes)};
     flight.found.push_back(std::move(stored));
     story.stored.insert(number);
     story.photos = std::max(story.photos, number);

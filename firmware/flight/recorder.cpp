@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "edge/record/journal.h"
-#include "firmware/flight/sha256.h"
+#include "edge/record/sha256.h"
 
 namespace plumbline::flight {
 namespace {
@@ -166,7 +166,7 @@ bool Recorder::store_next(HostTime now) {
     return false;
   }
   const std::string_view bytes = text_of(photo->jpeg);
-  record(record::Stored{now, number, photo_name(number), bytes.size(), sha256(bytes)});
+  record(record::Stored{now, number, photo_name(number), bytes.size(), record::sha256(bytes)});
   take_over();
   {
     const std::lock_guard lock(mutex_);

@@ -7,8 +7,8 @@
 
 #include "firmware/ingest/camera_toml.h"
 #include "firmware/ingest/case_files.h"
+#include "firmware/ingest/file_hash.h"
 #include "firmware/ingest/named_points.h"
-#include "firmware/ingest/sha256.h"
 #include "firmware/ingest/text_file.h"
 
 namespace plumbline::ingest {

@@ -8,9 +8,9 @@
 
 #include "edge/base/parallel.h"
 #include "edge/jpeg/jpeg.h"
+#include "firmware/ingest/file_hash.h"
 #include "firmware/ingest/photo_files.h"
 #include "firmware/ingest/photo_tags.h"
-#include "firmware/ingest/sha256.h"
 #include "firmware/ingest/text_file.h"
 
 namespace plumbline::ingest {

@@ -42,7 +42,7 @@ const std::vector<Place> kLibraryPlaces = {
     {"toml++/", {"firmware/", "sim/"}},
     {"nlohmann/", {"firmware/"}},
     {"spdlog/", {"firmware/"}},
-    {"nettle/", {"firmware/"}},
+    {"nettle/", {"edge/record/"}},
     {"CLI/", {"firmware/"}},
     {"libcamera/", {"drivers/camera/"}},
     {"gpiod.h", {"drivers/gpio/"}},

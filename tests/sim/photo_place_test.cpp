@@ -12,9 +12,8 @@
 #include "edge/capture/frame_ring.h"
 #include "edge/gnss/leap_seconds.h"
 #include "edge/gnss/stream_decoder.h"
+#include "edge/timing/antenna_predictor.h"
 #include "edge/timing/clock_fit.h"
-#include "edge/timing/crossing.h"
-#include "edge/timing/exposure_place.h"
 #include "sim/gnss_stream.h"
 #include "sim/random.h"
 #include "sim/replayed_receiver.h"
@@ -109,10 +108,14 @@ class Flight {
     fit_.add(epoch, received->first_byte);
     antenna_.add(received->fix);
     if (wished_ || !fit_.estimate()) return;
-    const auto crossing = timing::crossing_of_height(antenna_, wanted_m_, epoch, milliseconds(450));
-    if (!crossing) return;
+    const auto now = antenna_.at(epoch);
+    if (!now) return;
+    const double until_s =
+        (wanted_m_ - now->position.height_ellipsoidal_m) / now->velocity_enu_m_s.z();
+    if (!(until_s >= 0 && until_s <= 0.45)) return;
     wished_ = true;
-    ring_.want(timing::on_host(*crossing, *fit_.estimate()).time);
+    const auto until = nanoseconds(std::llround(1e9 * until_s));
+    ring_.want(fit_.estimate()->host_of(epoch + until).time);
   }
 
   void take(CameraEvent& event) {
@@ -127,15 +130,16 @@ class Flight {
 
   std::optional<Photo> judged() const {
     const auto place =
-        timing::place_of_exposure(antenna_, shot_->stated, 0.5 * (kRows - 1), *fit_.estimate());
+        antenna_.at(shot_->stated.middle_of_row(0.5 * (kRows - 1)), *fit_.estimate());
     if (!place) return std::nullopt;
+    const Eigen::Vector3d blur_m = place->velocity_enu_m_s * in_seconds(shot_->stated.sigma);
     const double host_s =
         std::chrono::duration<double>(shot_->true_middle.time_since_epoch()).count();
     const geodesy::Geodetic truth = climb(host_s / (1 + receiver_options_.host_rate_error));
     const auto frame = geodesy::LocalFrame::at(truth);
     const Eigen::Vector3d off_m = frame->enu_of(place->position);
     const Eigen::Matrix3d all_m2 =
-        place->covariance_enu_m2 +
+        place->covariance_enu_m2 + blur_m * blur_m.transpose() +
         place->latency_shift_enu_m * place->latency_shift_enu_m.transpose();
     return Photo{off_m.z(), std::sqrt(all_m2(2, 2)), off_m.x(), std::sqrt(all_m2(0, 0)),
                  truth.height_ellipsoidal_m - wanted_m_};

@@ -9,7 +9,6 @@
 #include "edge/gnss/antenna_track.h"
 #include "edge/gnss/leap_seconds.h"
 #include "edge/gnss/stream_decoder.h"
-#include "edge/timing/crossing.h"
 #include "tests/soak/day.h"
 
 namespace plumbline::soak {
@@ -87,9 +86,13 @@ void Companion::take(const ReceivedFix& received) {
 void Companion::foresee(GpsTime newest) {
   const auto fit = fit_.estimate();
   if (!fit || (last_shot_ && clock_.now() - *last_shot_ < seconds(30))) return;
-  const auto crossing =
-      timing::crossing_of_height(antenna_, kWantedHeight_m, newest, milliseconds(450));
-  if (crossing && crossing->speed_m_s > 0) shoot(timing::on_host(*crossing, *fit).time);
+  const auto now = antenna_.at(newest);
+  if (!now || now->velocity_enu_m_s.z() <= 0) return;
+  const double until_s =
+      (kWantedHeight_m - now->position.height_ellipsoidal_m) / now->velocity_enu_m_s.z();
+  if (until_s < 0 || until_s > 0.45) return;
+  const auto until = std::chrono::nanoseconds(std::llround(1e9 * until_s));
+  shoot(fit->host_of(newest + until).time);
 }
 
 void Companion::shoot(HostTime instant) {

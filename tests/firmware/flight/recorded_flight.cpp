@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "tests/firmware/flight/recorded_flight.h"
 
-#include "firmware/flight/sha256.h"
+#include "edge/record/sha256.h"
 
 namespace plumbline::flight {
 namespace {
@@ -53,7 +53,7 @@ testing::AssertionResult is_whole(Storage& disk, const std::string& folder,
                                   const record::Stored& stored) {
   const auto bytes = disk.read(folder + "/" + stored.name);
   if (!bytes) return testing::AssertionFailure() << bytes.error().sentence;
-  if (bytes->size() != stored.length || sha256(*bytes) != stored.sha256) {
+  if (bytes->size() != stored.length || record::sha256(*bytes) != stored.sha256) {
     return testing::AssertionFailure() << folder << "/" << stored.name << " is not what was stored";
   }
   return testing::AssertionSuccess();

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "edge/record/journal.h"
-#include "firmware/flight/sha256.h"
+#include "edge/record/sha256.h"
 #include "sim/sim_disk.h"
 #include "tests/flights/drone.h"
 
@@ -63,7 +63,7 @@ std::set<int> stored_photos(Storage& disk, const std::string& folder) {
     EXPECT_TRUE(bytes) << stored->name;
     if (!bytes) continue;
     EXPECT_EQ(bytes->size(), stored->length);
-    EXPECT_EQ(sha256(*bytes), stored->sha256);
+    EXPECT_EQ(record::sha256(*bytes), stored->sha256);
     EXPECT_TRUE(numbers.insert(stored->number).second) << stored->number;
   }
   return numbers;

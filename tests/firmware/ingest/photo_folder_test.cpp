@@ -6,8 +6,8 @@
 
 #include <cstdlib>
 
+#include "firmware/ingest/file_hash.h"
 #include "firmware/ingest/photo_files.h"
-#include "firmware/ingest/sha256.h"
 #include "tests/firmware/ingest/tagged_photo.h"
 #include "tests/firmware/ingest/temporary_folder.h"
 

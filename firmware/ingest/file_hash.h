@@ -10,7 +10,7 @@
 
 namespace plumbline::ingest {
 
-// SHA-256 (FIPS 180-4) in 64 lower-case hexadecimal digits, over Nettle.
+// SHA-256 in 64 lower-case hexadecimal digits.
 std::string sha256_hex(std::span<const std::uint8_t> bytes);
 Result<std::string> sha256_of_file(const std::filesystem::path& path);
 
