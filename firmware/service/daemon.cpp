@@ -111,7 +111,13 @@ void Daemon::measure() {
     board_.measured(sentence);
     tell(sentence);
   };
-  measurer_ = std::make_unique<Measurer>(options, Measurer::Events{show, show});
+  const auto show_result = [this, show](const Measurer::Measured& measured) {
+    if (!measured.figures) return show(measured.sentence);
+    show(measured.sentence + " " + in_words(*measured.figures));
+    if (devices_.pilot == nullptr) return;
+    devices_.pilot->say(PilotSeverity::kInfo, for_the_pilot(*measured.figures));
+  };
+  measurer_ = std::make_unique<Measurer>(options, Measurer::Events{show_result, show});
 }
 
 void Daemon::tell(const std::string& sentence) {

@@ -33,6 +33,7 @@ constexpr int kIoprioWhoProcess = 1;
 constexpr int kIoprioClassIdle = 3 << 13;
 
 constexpr const char* kLog = "/measure.log";
+constexpr const char* kResultFolder = "/result";
 
 constexpr std::string_view kResult = "Measured from ";
 
@@ -136,7 +137,7 @@ void Measurer::measure(const Wish& wish) {
     return;
   }
   const pid_t process = spawn(folder);
-  const int status = process > 0 ? wait_for(process, folder + kLog) : -1;
+  const int status = process > 0 ? wait_for(process, folder) : -1;
   {
     const std::lock_guard lock(mutex_);
     if (stopping_) return;
@@ -167,7 +168,7 @@ bool Measurer::request(const std::string& flight) const {
 
 pid_t Measurer::spawn(const std::string& flight) const {
   const std::string program = program_path(options_.program);
-  const std::string out = flight + "/result";
+  const std::string out = flight + kResultFolder;
   const std::string log = flight + kLog;
   std::error_code none;
   std::filesystem::remove(log, none);
@@ -185,8 +186,8 @@ pid_t Measurer::spawn(const std::string& flight) const {
   ::_exit(127);
 }
 
-int Measurer::wait_for(pid_t process, const std::string& log) {
-  ResultLines results(log);
+int Measurer::wait_for(pid_t process, const std::string& flight) {
+  ResultLines results(flight + kLog);
   auto rested = std::chrono::steady_clock::now();  // when nothing was due last, or a result came
   int measured = 0;
   int status = 0;
@@ -196,7 +197,7 @@ int Measurer::wait_for(pid_t process, const std::string& log) {
     while (const auto sentence = results.next()) {
       measured = photos_of(*sentence);
       rested = now;
-      events_.measured(*sentence);
+      events_.measured({*sentence, read_result(flight + kResultFolder)});
     }
     if (is_over) return status;
     bool stop = false;

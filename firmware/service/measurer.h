@@ -10,7 +10,7 @@
 #include <string>
 #include <thread>
 
-#include "edge/record/entry.h"
+#include "firmware/service/result_figures.h"
 
 namespace plumbline::service {
 
@@ -29,8 +29,12 @@ struct MeasurerOptions {
 // more after landing. What it does or fails to do costs no photo. One thread of its own.
 class Measurer {
  public:
+  struct Measured {
+    std::string sentence;
+    std::optional<ResultFigures> figures;  // empty where the result does not tell them
+  };
   struct Events {
-    std::function<void(const std::string& sentence)> measured;
+    std::function<void(const Measured& measured)> measured;
     std::function<void(const std::string& sentence)> failed;
   };
 
@@ -51,7 +55,7 @@ class Measurer {
   void measure(const Wish& wish);
   void judge(const std::string& folder, int status, bool was_last_try);
   pid_t spawn(const std::string& flight) const;
-  int wait_for(pid_t process, const std::string& log);
+  int wait_for(pid_t process, const std::string& flight);
   bool request(const std::string& flight) const;
 
   MeasurerOptions options_;

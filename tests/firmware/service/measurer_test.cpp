@@ -38,7 +38,10 @@ class MeasuringProcess : public testing::Test {
     options_.flights = folder_.path().string();
     options_.program = program.string();
     Measurer::Events events;
-    events.measured = [this](const std::string& sentence) { keep("measured: " + sentence); };
+    events.measured = [this](const Measurer::Measured& measured) {
+      keep("measured: " + measured.sentence +
+           (measured.figures ? " " + in_words(*measured.figures) : ""));
+    };
     events.failed = [this](const std::string& sentence) { keep("failed: " + sentence); };
     measurer_.emplace(options_, events);
     return *measurer_;
@@ -83,6 +86,17 @@ TEST_F(MeasuringProcess, StartsAtTheThirdPhotoOnWhatIsOnTheDisk) {
   EXPECT_EQ(sentences[0], "measured: Measured from 3 photos: there.");
   EXPECT_THAT(log(),
               StartsWith("measure " + flight() + " --out " + flight() + "/result --follow\n"));
+}
+
+TEST_F(MeasuringProcess, TellsTheFiguresOfAResult) {
+  Measurer& measurer = measurer_of(
+      "mkdir \"$4\"; echo '{\"photos_used\": 3, \"unobservable\": [\"azimuth\"], \"point_sigmas\": "
+      "{\"median_e_m\": 0.05, \"median_n_m\": 0.04, \"median_u_m\": 0.03}}' > \"$4/summary.json\"; "
+      "echo 'Measured from 3 photos: there.'");
+  for (int photo = 1; photo <= 3; ++photo) measurer.stored("0001");
+  EXPECT_EQ(said(1).back(),
+            "measured: Measured from 3 photos: there. Median sigma 5.0/4.0/3.0 cm east/north/up, "
+            "azimuth unknown.");
 }
 
 TEST_F(MeasuringProcess, TellsOfEachResultWhileItFollowsTheFlight) {
