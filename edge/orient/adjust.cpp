@@ -39,6 +39,8 @@ constexpr double kLeastBase = 0.02;
 // A point whose own sigma is beyond this share of the flying height (at the foot of a climb) is no
 // measurement; where it comes to lie by chance, its linearisation would pull at the rest.
 constexpr double kFarPoint = 0.1;
+// Nor is one whose height all in all is known so badly, where the median is better by this factor.
+constexpr double kOutlyingSigma = 10;
 // Heights worse than this share of the flying height (median sigma) are none.
 constexpr double kWorstHeight = 0.5;
 // A camera that the photos ask for, against all that is known of it, is asked for by image errors
@@ -177,6 +179,7 @@ class Adjustment {
             options_.bent_error_bars
                 ? bent_covariance(network_, state_, datum_, terms_, *covariance)
                 : *covariance;
+        if (drop_points_without_height(bars) > 0) continue;
         return solution_of({network_, state_, terms_, *covariance, bars, fits, terms, datum_,
                             doubts_.rejected(), iterations_, converged_},
                            options_);
@@ -227,6 +230,30 @@ class Adjustment {
   int drop_far_points() {
     const double limit = kFarPoint * std::abs(flying_height(network_, state_));
     return drop_undetermined(network_, normal_equations(network_, state_, 0, {}), limit);
+  }
+
+  // On the axis of a straight climb a height may be anything, and where such a point comes to lie
+  // its rays may seem to meet well: only all that is known together tells. Returns how many went.
+  int drop_points_without_height(const NetworkCovariance& bars) {
+    const auto covariances_m2 = bars.point_covariances();
+    std::vector<double> sigmas_m;
+    for (int p = 0; p < network_.points(); ++p) {
+      if (bars.point(p).measured) sigmas_m.push_back(std::sqrt(covariances_m2[at(p)](2, 2)));
+    }
+    if (sigmas_m.empty()) return 0;
+    const auto middle = sigmas_m.begin() + static_cast<std::ptrdiff_t>(sigmas_m.size() / 2);
+    std::nth_element(sigmas_m.begin(), middle, sigmas_m.end());
+    const double limit_m =
+        std::max(kFarPoint * std::abs(flying_height(network_, state_)), kOutlyingSigma * *middle);
+    int dropped = 0;
+    for (int p = 0; p < network_.points(); ++p) {
+      const bool held = network_.layout.kept_of_point[at(p)] >= 0;
+      if (!bars.point(p).measured || held || !(covariances_m2[at(p)](2, 2) > limit_m * limit_m))
+        continue;
+      drop_for_good(network_, p);
+      ++dropped;
+    }
+    return dropped;
   }
 
   const Problem& problem_;

@@ -49,12 +49,6 @@ void couple(Network& network, int point, bool measured) {
   network.layout.kept_of_point[at(point)] = held ? static_cast<int>(place - kept.begin()) : -1;
 }
 
-void drop_for_good(Network& network, int point) {
-  network.undetermined[at(point)] = true;
-  for (int k = network.first_ray[at(point)]; k < network.first_ray[at(point) + 1]; ++k)
-    network.rays[at(k)].used = false;
-}
-
 // Points further above or below the ground than a share of the flying height.
 void replant_points_beyond(double share, const Network& network, State& state) {
   std::vector<double> heights, stations;
@@ -80,6 +74,12 @@ void replant_points_beyond(double share, const Network& network, State& state) {
 }
 
 }  // namespace
+
+void drop_for_good(Network& network, int point) {
+  network.undetermined[at(point)] = true;
+  for (int k = network.first_ray[at(point)]; k < network.first_ray[at(point) + 1]; ++k)
+    network.rays[at(k)].used = false;
+}
 
 double squared_sigmas(const Ray& ray, const State& state) {
   const auto residual = residual_of(ray, state);

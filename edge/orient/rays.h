@@ -18,6 +18,9 @@ double upper_median(std::vector<double>& values);
 // one ray that nothing else holds. Returns how many rays changed sides.
 int reject_rays(Network& network, const State& state, double sigmas);
 
+// The point takes no more part, whatever its rays would say later.
+void drop_for_good(Network& network, int point);
+
 // Drops for good the points whose rays, poses given, leave them a sigma beyond `limit_m`. Returns
 // how many.
 int drop_undetermined(Network& network, const NormalEquations& equations, double limit_m);
