@@ -11,8 +11,12 @@
 namespace plumbline::orient {
 namespace {
 
-// A quantity rests on a claim alone where the claim takes all but this share of its variance away.
+// A quantity rests on a claim alone where the claim takes all but this share of its variance away,
+// and mostly on it where an error that the tests may miss moves it by so many of its sigmas (Baarda
+// 1968, external reliability).
 constexpr double kCarriedByOthers = 0.02;
+constexpr double kMovedUnseen = 10;
+constexpr double kStrangeGroup = 3;  // sigma0 of headings or attitudes
 
 std::string capital(std::string sentence) {
   if (!sentence.empty() && sentence[0] >= 'a' && sentence[0] <= 'z')
@@ -143,8 +147,16 @@ std::string figure(double value, const Quantity& q) {
   return formatted("%.2g %s", value * q.factor, q.unit);
 }
 
-std::string sentence_of(const Quantity& q, const std::string& subject, double without) {
+// `unseen`: by how much an error of the claim may move it before a test finds that.
+std::string sentence_of(const Quantity& q, const std::string& subject, double without,
+                        double unseen) {
   const double known = std::sqrt(std::max(0.0, q.variance));
+  if (q.variance > kCarriedByOthers * without * without) {
+    return std::string("The ") + q.words + " (sigma " + figure(known, q) + ") rests mostly on " +
+           subject + ": an error there may move it by " + figure(unseen, q) +
+           " before a test finds it; without it the " + q.words + " would be known to " +
+           figure(without, q) + " only.";
+  }
   const bool nothing = !(without < 1e3 * std::max(known, 1e-6));
   return std::string("The ") + q.words + " (sigma " + figure(known, q) + ") rests on " + subject +
          " alone: nothing checks it. Were that wrong, no residual would show it; without it the " +
@@ -159,21 +171,26 @@ Eigen::VectorXd lost(const Claim& claim, const Finished& f, const Eigen::MatrixX
   return reliability.lost_without(rows.first, rows.count, with_columns).diagonal();
 }
 
-void add_unchecked(const Finished& f, const LocalFrameFit& frame, Solution& solution) {
+void add_unchecked(const std::vector<ClaimTest>& believed, const Finished& f,
+                   const LocalFrameFit& frame, Solution& solution) {
   if (!frame.determined) return;
   Eigen::MatrixXd with_columns(f.network.layout.columns(), 8);
   with_columns << frame.with_columns, f.covariance.common().col(geometry::kFocalLength);
   const auto all = quantities(f, frame);
-  for (const Claim& claim : believed_claims(f.network, f.terms, f.linear)) {
+  for (const ClaimTest& test : believed) {
+    const Claim& claim = test.claim;
     // What rests on the calibration is said where the focal length is judged.
     if (claim.kind == ClaimKind::kInterior) continue;
     const Eigen::VectorXd gone = lost(claim, f, with_columns);
     for (const Quantity& q : all) {
-      if (!(q.variance > 0) || q.variance > kCarriedByOthers * (q.variance + gone[q.place]))
-        continue;
+      const double unseen = std::sqrt(test.threshold.noncentrality * gone[q.place]);
+      const bool alone = q.variance <= kCarriedByOthers * (q.variance + gone[q.place]);
+      const bool mostly = claim.kind == ClaimKind::kStation &&
+                          unseen > kMovedUnseen * std::sqrt(std::max(0.0, q.variance));
+      if (!(q.variance > 0) || !(alone || mostly)) continue;
       const std::string subject = in_words(claim, f.network);
       Unchecked item{q.name, subject_of(claim, f.network),
-                     sentence_of(q, subject, std::sqrt(q.variance + gone[q.place]))};
+                     sentence_of(q, subject, std::sqrt(q.variance + gone[q.place]), unseen)};
       solution.summary.warnings.push_back(item.sentence);
       solution.summary.unchecked.push_back(std::move(item));
     }
@@ -193,6 +210,38 @@ void add_contradictions(const std::vector<ClaimTest>& believed, const Finished& 
       "them, or fly again with more photos.");
 }
 
+// Headings and attitudes are no claims that are tested. Where a station was found to be wrong
+// beside them, they may be what is.
+void add_doubt_of_headings(const std::vector<ClaimTest>& rejected, const Finished& f,
+                           Solution& solution) {
+  const bool station = std::any_of(rejected.begin(), rejected.end(), [](const ClaimTest& test) {
+    return test.claim.kind == ClaimKind::kStation;
+  });
+  const auto& photos = f.network.problem->photos;
+  const bool told = std::any_of(photos.begin(), photos.end(), [](const Photo& photo) {
+    return photo.heading.has_value() || photo.attitude.has_value();
+  });
+  if (!station || !told) return;
+  solution.summary.warnings.emplace_back(
+      "The headings or attitudes given were believed where they contradict a GNSS position. Were "
+      "they wrong instead, that position would be right: try once without them.");
+}
+
+// What a group of observations says of itself: far from 1, and it contradicts all the rest.
+void add_strange_groups(const Problem& problem, Solution& solution) {
+  const bool attitudes = std::any_of(problem.photos.begin(), problem.photos.end(),
+                                     [](const Photo& p) { return p.attitude.has_value(); });
+  for (const auto& [name, sigma0] : solution.summary.sigma0_by_group) {
+    const bool is_given = name == "heading" || (name == "attitude" && attitudes);
+    if (!is_given || sigma0 < kStrangeGroup) continue;
+    solution.summary.warnings.push_back(
+        "The " + std::string(name == "heading" ? "headings" : "attitudes") +
+        " given contradict the photos" +
+        formatted(" (residuals %.1f times their sigmas): one of them, or their sigmas, are wrong.",
+                  sigma0));
+  }
+}
+
 }  // namespace
 
 void add_findings(const Finished& f, const LocalFrameFit& straight, Solution& solution) {
@@ -209,8 +258,10 @@ void add_findings(const Finished& f, const LocalFrameFit& straight, Solution& so
   }
   check_stations(believed, f, solution);
   check_stations(rejected, f, solution);
-  add_unchecked(f, straight, solution);
+  add_unchecked(believed, f, straight, solution);
+  add_doubt_of_headings(rejected, f, solution);
   add_contradictions(believed, f, solution);
+  add_strange_groups(*f.network.problem, solution);
 }
 
 }  // namespace plumbline::orient

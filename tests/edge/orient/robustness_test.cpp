@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "edge/base/index.h"
+#include "edge/base/units.h"
 #include "edge/orient/adjust.h"
 #include "tests/edge/orient/made_flight.h"
 
@@ -88,6 +89,68 @@ TEST(Adjust, TakesScaleAndAzimuthFromOneStationAndOneControlPoint) {
     const Eigen::Vector3d sigma = point.covariance_m2.diagonal().cwiseSqrt();
     EXPECT_LT(error.cwiseQuotient(sigma).cwiseAbs().maxCoeff(), 5) << p;
   }
+}
+
+// Over its foot the rays of an exactly straight climb all but coincide: where a height is not
+// known it is not given, neither with a sigma of kilometres nor half way up the climb.
+TEST(Adjust, GivesNoHeightOnTheAxisOfAStraightClimb) {
+  FlightPlan plan;
+  plan.side_step_m = 0;
+  plan.drift_m = 0;
+  int left_out = 0, beyond_two = 0, heights = 0;
+  for (std::uint64_t seed = 400; seed < 440; ++seed) {
+    const MadeFlight flight = make_flight(plan, seed);
+    const auto solution = adjust(flight.problem, {});
+    ASSERT_TRUE(solution) << solution.error().sentence;
+    for (std::size_t p = 0; p < flight.points.size(); ++p) {
+      if (!solution->points[p].measured) {
+        ++left_out;
+        continue;
+      }
+      const double sigma_m = std::sqrt(solution->points[p].covariance_m2(2, 2));
+      const double off_m = solution->points[p].in_enu_m.z() - flight.points[p].z();
+      EXPECT_LT(sigma_m, 0.1 * solution->summary.flying_height_m) << seed << " " << p;
+      EXPECT_LT(std::abs(off_m), 5 * sigma_m) << seed << " " << p;
+      ++heights;
+      beyond_two += std::abs(off_m) > 2 * sigma_m ? 1 : 0;
+    }
+  }
+  EXPECT_GT(left_out, 0) << "else nothing is tried here";
+  EXPECT_LT(left_out, 0.02 * heights);
+  EXPECT_LT(beyond_two, 0.08 * heights);
+}
+
+// A compass that is 15 degrees off and a side-step contradict each other, and nothing else tells
+// which is wrong.
+TEST(Adjust, SaysThatHeadingsMayBeWrongInsteadOfAStation) {
+  FlightPlan plan;
+  plan.side_step_m = 10;
+  plan.heading_sigma_deg = 2;
+  for (std::uint64_t seed = 620; seed < 626; ++seed) {
+    MadeFlight flight = make_flight(plan, seed);
+    for (Photo& photo : flight.problem.photos) photo.heading->heading_rad += 15 * kRadPerDeg;
+    const auto solution = adjust(flight.problem, {});
+    ASSERT_TRUE(solution) << solution.error().sentence;
+    EXPECT_FALSE(solution->summary.blunders.empty());
+    const auto& warnings = solution->summary.warnings;
+    EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& sentence) {
+      return sentence.find("headings or attitudes") != std::string::npos;
+    })) << seed;
+  }
+}
+
+TEST(Adjust, SaysThatOneHeadingContradictsThePhotos) {
+  FlightPlan plan;
+  plan.side_step_m = 0;
+  plan.heading_sigma_deg = 2;
+  MadeFlight flight = make_flight(plan, 630);
+  flight.problem.photos[1].heading->heading_rad += 30 * kRadPerDeg;
+  const auto solution = adjust(flight.problem, {});
+  ASSERT_TRUE(solution) << solution.error().sentence;
+  const auto& warnings = solution->summary.warnings;
+  EXPECT_TRUE(std::any_of(warnings.begin(), warnings.end(), [](const std::string& sentence) {
+    return sentence.starts_with("The headings given contradict the photos");
+  }));
 }
 
 TEST(Adjust, RefusesNumbersThatAreNone) {
