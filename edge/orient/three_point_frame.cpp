@@ -10,6 +10,7 @@
 #include "edge/base/index.h"
 #include "edge/base/units.h"
 #include "edge/geometry/rotation.h"
+#include "edge/orient/formatted.h"
 #include "edge/orient/s_transformation.h"
 
 namespace plumbline::orient {
@@ -165,13 +166,22 @@ void judge_relief(Solution& out) {
   const auto dof = static_cast<double>(n);
   constexpr double kNormal95 = 1.645;
   const double limit = 0.5 * std::pow(kNormal95 + std::sqrt(2 * dof - 1), 2);
-  if (!(chi_square >= 0) || chi_square > limit) return;
-  char text[320];
+  const double sigma_m = std::sqrt(c.diagonal().mean());
+  // The heights found hold their errors: relief^2 = found^2 - sigma^2, and beats nothing below it.
+  const double found_m = std::sqrt(z.squaredNorm() / dof);
+  const bool is_flat = chi_square >= 0 && chi_square <= limit;
+  const bool is_worse = found_m < std::sqrt(2.0) * sigma_m;
+  if (!is_flat && !is_worse) return;
+  char text[400];
   std::snprintf(text, sizeof text,
-                "The heights do not beat the answer that everything is flat: all %d together lie "
-                "within their error bars of Z = 0 (RMS sigma %.2g m). A side-step, or photos from "
-                "lower down, would show the relief.",
-                static_cast<int>(n), std::sqrt(c.diagonal().mean()));
+                "The heights do not beat the answer that everything is flat: %s (RMS sigma %.2g m, "
+                "RMS height %.2g m). A side-step, or photos from lower down, would show the "
+                "relief.",
+                is_flat ? formatted("all %d together lie within their error bars of Z = 0",
+                                    static_cast<int>(n))
+                              .c_str()
+                        : "their error bars are as long as the relief is high",
+                sigma_m, found_m);
   out.summary.unobservable.push_back({"relief", text});
 }
 
