@@ -222,10 +222,10 @@ Eigen::MatrixXd NetworkCovariance::joint(const std::vector<int>& points) const {
   Eigen::MatrixXd covariance(size, size);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const PointFactor& a = point(points[i]);
+    const Eigen::MatrixXd with_common = a.by_common * common_(a.columns, Eigen::all);
     for (std::size_t j = 0; j <= i; ++j) {
       const PointFactor& b = point(points[j]);
-      Eigen::Matrix3d block =
-          a.by_common * common_block(a.columns, b.columns) * b.by_common.transpose();
+      Eigen::Matrix3d block = with_common(Eigen::all, b.columns) * b.by_common.transpose();
       if (points[i] == points[j]) block += a.own;
       const auto row = static_cast<Eigen::Index>(3 * i), col = static_cast<Eigen::Index>(3 * j);
       covariance.block<3, 3>(row, col) = block;
