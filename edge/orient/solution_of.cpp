@@ -156,6 +156,10 @@ Solution solution_of(const Finished& f, const Options& options) {
 
   Summary& summary = solution.summary;
   summary.converged = f.converged;
+  if (!f.converged) {
+    summary.warnings.emplace_back(
+        "The adjustment did not converge: neither figures nor error bars may be used.");
+  }
   summary.iterations = f.iterations;
   summarise_images(f, solution, summary);
   summarise_fits(f, summary);

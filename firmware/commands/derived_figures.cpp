@@ -120,4 +120,24 @@ Status add_derived_figures(const DerivedArguments& arguments, deliver::Product& 
   return Done{};
 }
 
+Status add_check(const std::vector<survey::CheckPoint>& known, deliver::Product& product) {
+  const orient::Problem& problem = product.problem;
+  const auto is_control = [&](const survey::CheckPoint& point) {
+    return std::any_of(problem.control.begin(), problem.control.end(), [&](const auto& control) {
+      return problem.point_names[static_cast<std::size_t>(control.point)] == point.point;
+    });
+  };
+  if (known.empty()) return Done{};
+  if (std::all_of(known.begin(), known.end(), is_control)) {
+    product.warnings.emplace_back(
+        "All check points were control points of the adjustment: nothing independent is left to "
+        "compare with.");
+    return Done{};
+  }
+  auto check = survey::check(problem, product.solution, known);
+  if (!check) return check.error();
+  product.check = std::move(*check);
+  return Done{};
+}
+
 }  // namespace plumbline::commands

@@ -21,4 +21,8 @@ void add_derived_options(CLI::App& sub, DerivedArguments& arguments);
 // argument cannot be read, or names a point that was not measured.
 Status add_derived_figures(const DerivedArguments& arguments, deliver::Product& product);
 
+// Compares the product's solution with the known points and puts that into it. Where all of them
+// were control, nothing is left to compare, and a warning says so. Fails where none was measured.
+Status add_check(const std::vector<survey::CheckPoint>& known, deliver::Product& product);
+
 }  // namespace plumbline::commands

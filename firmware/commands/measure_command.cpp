@@ -56,11 +56,7 @@ int measure_inputs(const MeasureArguments& arguments, Result<MeasureInputs> inpu
   if (auto status = add_derived_figures(arguments.derived, product); !status) {
     return fail(status.error());
   }
-  if (!known.empty()) {
-    auto check = survey::check(product.problem, product.solution, known);
-    if (!check) return fail(check.error());
-    product.check = std::move(*check);
-  }
+  if (auto status = add_check(known, product); !status) return fail(status.error());
   return deliver_result(product, report, out_of(arguments), arguments.json);
 }
 

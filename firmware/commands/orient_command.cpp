@@ -111,11 +111,7 @@ int run_orient(const OrientArguments& arguments) {
   if (auto status = add_derived_figures(arguments.derived, product); !status) {
     return fail(status.error());
   }
-  if (!known.empty()) {
-    auto check = survey::check(product.problem, product.solution, known);
-    if (!check) return fail(check.error());
-    product.check = std::move(*check);
-  }
+  if (auto status = add_check(known, product); !status) return fail(status.error());
   const auto out = arguments.out.empty() ? arguments.folder / "result" : arguments.out;
   return deliver_result(product, report, out, arguments.json);
 }

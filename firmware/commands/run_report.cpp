@@ -81,7 +81,9 @@ int deliver_result(const deliver::Product& product, RunReport& report,
     std::cout << deliver::paper_stages_text(product) << deliver::accuracy_table(product)
               << "Report: " << (folder / "report.html").string() << '\n';
   }
-  return kGood;
+  if (product.solution.summary.converged) return kGood;
+  return fail({"The adjustment did not converge: there is no solution. " + folder.string() +
+               " shows how far it came; residuals and warnings there tell what to look at."});
 }
 
 }  // namespace plumbline::commands

@@ -137,10 +137,10 @@ class CaseReader {
     return Done{};
   }
 
-  Result<KnownPoints> known(const char* file) {
+  Result<KnownPoints> known(const char* file, bool three_points = false) {
     if (const auto text = text_of(file); !text) return text.error();
-    Result<KnownPoints> points =
-        read_known_points(folder_ / file, {result_.frame ? &*result_.frame : nullptr, geoid_});
+    Result<KnownPoints> points = read_known_points(
+        folder_ / file, {result_.frame ? &*result_.frame : nullptr, geoid_, three_points});
     if (points) warn(points->notices);
     return points;
   }
@@ -170,7 +170,7 @@ class CaseReader {
 
   Status read_check() {
     if (!has("check.csv")) return Done{};
-    const Result<KnownPoints> points = known("check.csv");
+    const Result<KnownPoints> points = known("check.csv", has("frame.csv"));
     if (!points) return points.error();
     result_.check = as_check_points(*points);
     return Done{};

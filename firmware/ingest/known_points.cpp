@@ -63,17 +63,21 @@ class KnownPointReader {
 
  private:
   Eigen::Vector3d position(const CsvRow& row) {
-    if (ground_.frame != nullptr && on_earth()) {
+    if (ground_.frame != nullptr && !ground_.three_points && on_earth()) {
       if (const std::optional<Geodetic> found = place(row)) return ground_.frame->enu_of(*found);
     }
     const auto e = reader_.number_or_blank(row, "e_m");
     const auto n = reader_.number_or_blank(row, "n_m");
     const auto u = reader_.number_or_blank(row, "u_m");
     if (e && n && u) return {*e, *n, *u};
-    reader_.fail(row, on_earth() && ground_.frame == nullptr
-                          ? "the position is on the earth, but nothing else here is: the photos "
-                            "have no positions on the earth to set a local frame; give e_m,n_m,u_m."
-                          : "the position is not complete.");
+    reader_.fail(row,
+                 on_earth() && ground_.three_points
+                     ? "the position is on the earth, but the results are in the frame of three "
+                       "points (frame.csv); give e_m,n_m,u_m in that frame."
+                 : on_earth() && ground_.frame == nullptr
+                     ? "the position is on the earth, but nothing else here is: the photos "
+                       "have no positions on the earth to set a local frame; give e_m,n_m,u_m."
+                     : "the position is not complete.");
     return Eigen::Vector3d::Zero();
   }
 

@@ -46,6 +46,8 @@ Result<survey::NamedLength> parse_length(const std::string& argument);
 struct GroundFrame {
   const geodesy::LocalFrame* frame = nullptr;
   const geodesy::Geoid* geoid = nullptr;
+  bool three_points =
+      false;  // the results are in a frame of three points, which is not on the earth
 };
 
 struct KnownPoint {

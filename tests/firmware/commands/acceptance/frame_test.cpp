@@ -106,6 +106,14 @@ TEST_F(Frame, OfThreePointsOnALineIsRefused) {
   expect_refused({"orient", "case"}, "'P99'");
 }
 
+// A place on the earth is none in that frame.
+TEST_F(Frame, ComparesNoPlacesOnTheEarth) {
+  write_framed_case({.seed = 85});
+  write_text(folder / "case/check.csv",
+             "point,lat_deg,lon_deg,height_ellipsoidal_m\nP5,35.3,139.1,50\n");
+  expect_refused({"orient", "case"}, "frame.csv");
+}
+
 TEST_F(Frame, PaperPrintsEveryStageAndItsPriors) {
   write_framed_case({.seed = 83, .stations = false, .side_step_m = 0, .length = true});
   const Json summary = solved({"--paper"});

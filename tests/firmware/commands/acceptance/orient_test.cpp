@@ -107,6 +107,16 @@ TEST_F(Orient, UsesControlInsteadOfStations) {
   EXPECT_THAT(unobservable(summary), Not(Contains("scale")));
 }
 
+TEST_F(Orient, ComparesNothingWhereAllCheckPointsAreControl) {
+  write_case({.seed = 48, .stations = false, .control = true}, folder / "case");
+  write_text(folder / "case/check.csv", text_of(folder / "case/control.csv"));
+  const Outcome outcome = run_plumbline({"orient", "case"}, folder);
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const Json summary = summary_of(folder / "case/result");
+  EXPECT_FALSE(summary.contains("check") && summary["check"].is_object());
+  EXPECT_THAT(summary["warnings"].dump(), testing::HasSubstr("All check points were control"));
+}
+
 TEST_F(Orient, TakesItsScaleFromALengthAlone) {
   const Json summary = solved({.seed = 45, .stations = false, .length = true});
   EXPECT_THAT(unobservable(summary), AllOf(Contains("position"), Contains("azimuth")));
