@@ -3,9 +3,6 @@
 // fix's first byte to the pulse, or to knowing that there is none yet, with every core busy (fails
 // where there is an allocation); and the altitudes of exposure beside those of a program that fires
 // when a fix has passed the step.
-#include <pthread.h>
-#include <sched.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -21,6 +18,7 @@
 
 #include "firmware/flight/capture_loop.h"
 #include "firmware/flight/recorder.h"
+#include "firmware/flight/urgent_thread.h"
 #include "sim/sim_disk.h"
 #include "tests/flights/capture_flight.h"
 
@@ -54,23 +52,6 @@ flights::CaptureFlight flight_of(int seed, double climb_m_s) {
   flight.receiver.interval = std::chrono::milliseconds(200);
   return flight;
 }
-
-// For as long as it lives this thread runs before all others, as the daemon's deciding thread is
-// to run; where the system does not allow it, it is said.
-class RunsFirst {
- public:
-  RunsFirst() { allowed_ = set(SCHED_FIFO, 10); }
-  ~RunsFirst() { set(SCHED_OTHER, 0); }
-  bool is_allowed() const { return allowed_; }
-
- private:
-  static bool set(int policy, int priority) {
-    sched_param parameters{};
-    parameters.sched_priority = priority;
-    return ::pthread_setschedparam(::pthread_self(), policy, &parameters) == 0;
-  }
-  bool allowed_ = false;
-};
 
 // Both cores, as the encoder and the measuring program would have them.
 class BusyCores {
@@ -126,7 +107,7 @@ class DecidingThread {
   }
 
   void run() {
-    const RunsFirst first;
+    const flight::UrgentThread first;
     cost_.ran_first = cost_.ran_first && first.is_allowed();
     for (const capture::Input& input : log_.inputs) {
       clock_.time = input.now;
