@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
 
@@ -24,6 +25,26 @@ Error cannot(const std::string& path) {
           "; is its folder there, and may this user write to it?"};
 }
 
+// Only the socket of a daemon that was killed goes: nothing answers there.
+Status clear_the_way(const std::string& path, const sockaddr_un& address) {
+  struct stat found {};
+  if (::lstat(path.c_str(), &found) != 0) return Done{};
+  if (!S_ISSOCK(found.st_mode)) {
+    return Error{"The status socket " + path +
+                 " cannot be made: something else is there; move it away, or name another path."};
+  }
+  const int client = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  const bool answers =
+      ::connect(client, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+  ::close(client);
+  if (answers) {
+    return Error{"Another program answers at the status socket " + path +
+                 ": is a second plumblined running? Stop it, or name another path."};
+  }
+  ::unlink(path.c_str());
+  return Done{};
+}
+
 Result<int> listen_at(const std::string& path) {
   if (path.empty()) return -1;
   sockaddr_un address{};
@@ -34,7 +55,10 @@ Result<int> listen_at(const std::string& path) {
   std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
   const int listener = ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   if (listener < 0) return cannot(path);
-  ::unlink(path.c_str());  // of a daemon that was killed: this one holds the lock
+  if (Status clear = clear_the_way(path, address); !clear) {
+    ::close(listener);
+    return clear.error();
+  }
   const bool good =
       ::bind(listener, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 &&
       ::listen(listener, 8) == 0;

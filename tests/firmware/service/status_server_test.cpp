@@ -106,14 +106,39 @@ TEST_F(StatusShown, IsNotHeldUpByOneWhoDoesNotRead) {
   EXPECT_TRUE(polite.next().is_object());
 }
 
+// The name of a socket outlives whoever made it.
+void leave_a_socket(const std::string& path) {
+  const int left = ::socket(AF_UNIX, SOCK_STREAM, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  std::strncpy(address.sun_path, path.c_str(), sizeof address.sun_path - 1);
+  ASSERT_EQ(::bind(left, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  ::close(left);
+}
+
 TEST_F(StatusShown, IsReachedAgainAfterADaemonThatWasKilled) {
   server_.reset();
-  std::ofstream(socket_) << "left over";
+  leave_a_socket(socket_);
   auto server = StatusServer::start(board_, socket_, file_);
-  ASSERT_TRUE(server);
+  ASSERT_TRUE(server) << server.error().sentence;
   EXPECT_TRUE(Client(socket_).good());
   server->reset();
   EXPECT_FALSE(std::filesystem::exists(socket_));
+}
+
+TEST_F(StatusShown, TakesNoOtherDaemonsSocket) {
+  const auto second = StatusServer::start(board_, socket_, file_);
+  ASSERT_FALSE(second);
+  EXPECT_THAT(second.error().sentence, HasSubstr("second plumblined"));
+  EXPECT_TRUE(Client(socket_).good());
+}
+
+TEST_F(StatusShown, TakesTheNameOfNothingElse) {
+  const std::string precious = folder_.write("precious", std::string("kept"));
+  const auto server = StatusServer::start(board_, precious, file_);
+  ASSERT_FALSE(server);
+  EXPECT_THAT(server.error().sentence, HasSubstr("something else is there"));
+  EXPECT_EQ(std::filesystem::file_size(precious), 4u);
 }
 
 TEST_F(StatusShown, RefusesAPathThatIsNoneInASentence) {
