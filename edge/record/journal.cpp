@@ -19,6 +19,7 @@ constexpr std::uint32_t kLongestPayload = 16u << 20;
 
 std::uint32_t crc_of(std::string_view a, std::string_view b = {}) {
   const auto fed = [](uLong crc, std::string_view bytes) {
+    if (bytes.empty()) return crc;  // zlib begins anew where there is no pointer
     return crc32(crc, reinterpret_cast<const Bytef*>(bytes.data()),
                  static_cast<uInt>(bytes.size()));
   };
@@ -94,7 +95,9 @@ Result<JournalReader> JournalReader::over(std::string_view bytes) {
   }
   Unpacker head(bytes.substr(kMagic.size()));
   const auto version = head.get<std::uint32_t>();
-  const bool whole = head.get<std::uint32_t>() == crc_of(bytes.substr(0, kHeadSize - 4));
+  const auto crc = head.get<std::uint32_t>();
+  const bool whole = crc == crc_of(bytes.substr(0, kHeadSize - 4)) ||
+                     (crc == 0 && version == kFormatVersion);  // as the first programs wrote it
   if (whole && version != kFormatVersion) {
     return Error{"The journal is of format " + std::to_string(version) + ", this program reads " +
                  std::to_string(kFormatVersion) + ": use the version that wrote it."};

@@ -143,10 +143,42 @@ TEST(Journal, IsDamagedWhereEntriesAreMissingWithin) {
   EXPECT_EQ(back.summary.lost_entries, 1u);
 }
 
-TEST(Journal, SaysWhatIsNone) {
-  EXPECT_FALSE(JournalReader::over("JFIF"));
-  std::string later = journal_head();
-  EXPECT_TRUE(JournalReader::over(later));
+// CRC-32 of the twelve bytes, by Python's zlib.
+TEST(Journal, BeginsWithAHeadThatIsChecked) {
+  using namespace std::string_literals;
+  EXPECT_EQ(journal_head(), "PLUMBJRN\x01\0\0\0"s + "\x01\x79\xE6\x7E"s);
+  const auto later = JournalReader::over("PLUMBJRN\x02\0\0\0"s + "\xEF\xD6\x53\x6C"s);
+  ASSERT_FALSE(later);
+  EXPECT_NE(later.error().sentence.find("of format 2"), std::string::npos);
+}
+
+TEST(Journal, SaysWhatIsNone) { EXPECT_FALSE(JournalReader::over("JFIF")); }
+
+// What follows a head with a flipped bit is read all the same.
+TEST(Journal, ReadsWhatFollowsADamagedHead) {
+  const std::string head = journal_head();
+  for (std::size_t byte = 8; byte < head.size(); ++byte) {
+    std::string journal = head;
+    append_entry(Ended{HostTime{}, "landed"}, 0, journal);
+    journal[byte] = static_cast<char>(journal[byte] ^ 1);
+    auto reader = JournalReader::over(journal);
+    ASSERT_TRUE(reader) << byte;
+    EXPECT_TRUE(reader->next()) << byte;
+    EXPECT_FALSE(reader->next());
+    EXPECT_EQ(reader->summary().state, JournalState::kDamaged) << byte;
+  }
+}
+
+// The first programs wrote no CRC there.
+TEST(Journal, TakesAHeadWithoutACrc) {
+  std::string journal = journal_head();
+  for (std::size_t byte = 12; byte < 16; ++byte) journal[byte] = 0;
+  append_entry(Ended{HostTime{}, "landed"}, 0, journal);
+  auto reader = JournalReader::over(journal);
+  ASSERT_TRUE(reader);
+  EXPECT_TRUE(reader->next());
+  EXPECT_FALSE(reader->next());
+  EXPECT_EQ(reader->summary().state, JournalState::kComplete);
 }
 
 TEST(Journal, StepsOverKindsOfALaterVersion) {
