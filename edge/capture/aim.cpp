@@ -27,7 +27,7 @@ class Search {
       : plan_(plan), steps_(steps), state_(state) {}
 
   double height_m(const Motion& motion) const {
-    return motion.height_ellipsoidal_m - state_.ground_height_m;
+    return motion.height_ellipsoidal_m - state_.ground_height_m.value_or(0);
   }
 
   std::optional<Aim> in(const Stride& stride) const {
@@ -110,7 +110,7 @@ std::optional<Aim> next_aim(const CapturePlan& plan, const HeightSteps& steps,
                             const StillnessOptions& stillness, HostTime from) {
   const Search search(plan, steps, state);
   std::optional<Motion> here = navigator.at(from);
-  if (!here) {
+  if (!here || !state.ground_height_m) {
     return plan.blind_every ? by_time(*plan.blind_every, Reason::kBlind, state, from)
                             : std::nullopt;
   }

@@ -21,7 +21,7 @@ struct Aim {
 
 // What the next photo depends on besides motion and heights.
 struct AimState {
-  double ground_height_m = 0;                   // ellipsoidal
+  std::optional<double> ground_height_m;        // ellipsoidal; without it there are no heights
   std::optional<Eigen::Vector2d> last_place_m;  // east and north of the last photo
   std::optional<HostTime> last_photo;
   HostTime flying_since;

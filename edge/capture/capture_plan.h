@@ -47,13 +47,20 @@ struct ReleaseOptions {
       std::chrono::milliseconds(800);  // an exposure later than this is none
 };
 
-// When a flight begins and ends.
+// What tells the ground from the air.
+enum class TakeOffBy {
+  kHeight,           // the receiver
+  kArmed,            // the autopilot: its motors may turn
+  kRelativeAltitude  // the autopilot's height above where it was armed
+};
+
+// When a flight begins and ends. An autopilot that is not heard is replaced by the receiver.
 struct TakeOffOptions {
+  TakeOffBy by = TakeOffBy::kHeight;
   double rise_m = 3;                                 // above the ground, and three sigmas,
   nanoseconds rise_lasts = std::chrono::seconds(2);  // for so long
   double landed_below_m = 2;
   nanoseconds landed_lasts = std::chrono::seconds(5);
-  bool by_pilot = false;  // the vehicle's own "armed" begins and ends the flight instead
 };
 
 // A pilot who pauses for a photo gets it when the drone has come to rest.

@@ -44,6 +44,7 @@ void Decider::take(const Input& input, std::vector<Decision>& decisions) {
   now_ = std::max(now_, input.now);
   hear(now_, input.what, decisions);
   look_at_phase(decisions);
+  if (phase_ == Phase::kFlying) follow_ground(decisions);
   if (phase_ == Phase::kFlying) work(decisions);
   if (phase_ == Phase::kReady) test(decisions);
 }
@@ -61,10 +62,11 @@ void Decider::hear(HostTime now, const Happening& what, std::vector<Decision>& d
                    [&](const ShutterOpened& opened) {
                      if (const auto exposure = pulses_.see(opened)) close(*exposure, decisions);
                    },
-                   [&](const PilotSeen& pilot) {
-                     if (pilot.armed) take_off_.set_armed(*pilot.armed);
+                   [&](const PilotSeen& pilot) { take_off_.set_armed(pilot.armed); },
+                   [&](const PilotHeightSeen& height) {
+                     take_off_.add(PilotHeight{now, height.above_arming_m, height.climb_m_s});
                    },
-                   [](const Tick&) {}},
+                   [&](const PhotoLost& lost) { hear_lost(lost, decisions); }, [](const Tick&) {}},
              what);
 }
 
@@ -93,6 +95,15 @@ void Decider::hear_frame(const FrameSeen& frame, std::vector<Decision>& decision
     frames_.see(frame);
   } else if (const auto exposure = pulses_.see(frame)) {
     close(*exposure, decisions);
+  }
+}
+
+// Its height is open again, and gone by.
+void Decider::hear_lost(const PhotoLost& lost, std::vector<Decision>& decisions) {
+  for (std::size_t k = 0; k < newest_.size(); ++k) {
+    if (newest_[k].number != lost.number) continue;
+    steps_.set_taken(newest_[k].target.entry, false);
+    decisions.push_back({now_, newest_[k]});
   }
 }
 
@@ -130,12 +141,30 @@ void Decider::look_at_phase(std::vector<Decision>& decisions) {
 void Decider::change_phase(Phase phase, std::vector<Decision>& decisions) {
   phase_ = phase;
   if (phase == Phase::kFlying) {
-    aim_state_.ground_height_m = take_off_.ground_height_m().value_or(0);
+    aim_state_.ground_height_m = take_off_.ground_height_m();
+    ground_is_final_ = resumed_ || options_.take_off.by == TakeOffBy::kHeight;
     aim_state_.flying_since = now_;
     pulses_.give_up();
     stillness_.reset();
   }
   decisions.push_back({now_, PhaseChanged{phase, take_off_.ground_height_m()}});
+}
+
+// A flight that the autopilot began may stand on the ground for a while, or have left it without a
+// position. The first position then is that of the ground, unless the autopilot says how high it
+// is.
+void Decider::follow_ground(std::vector<Decision>& decisions) {
+  if (ground_is_final_) return;
+  const auto here = navigator_.at(now_);
+  if (!here || !take_off_.ground_height_m()) return;
+  const bool is_new = !aim_state_.ground_height_m;
+  const auto above_m = take_off_.above_arming_m(now_);
+  if (is_new && above_m) take_off_.resume(here->height_ellipsoidal_m - *above_m);
+  aim_state_.ground_height_m = take_off_.ground_height_m();
+  ground_is_final_ = take_off_.is_high();
+  if (is_new || ground_is_final_) {
+    decisions.push_back({now_, GroundFound{*aim_state_.ground_height_m}});
+  }
 }
 
 // The delay is learned on the ground, where nobody waits for the photo.
@@ -160,7 +189,7 @@ void Decider::work(std::vector<Decision>& decisions) {
   }
   if (aim_ && (by_pulse() ? pulses_.is_missed(now_) : frames_.is_missed(now_))) miss(decisions);
   if (pulses_.is_waiting()) return;
-  re_aim();
+  re_aim(decisions);
   if (by_pulse()) pulse_if_due(decisions);
 }
 
@@ -179,17 +208,30 @@ std::optional<Aim> Decider::just_gone_by(HostTime earliest) const {
   return again;
 }
 
-void Decider::re_aim() {
+// What has gone by, as the drone will be at that time.
+void Decider::look_at_heights(HostTime time, std::vector<Decision>& decisions) {
+  const auto then = navigator_.at(time);
+  if (!then || !aim_state_.ground_height_m) return;
+  const double height_m = then->height_ellipsoidal_m - *aim_state_.ground_height_m;
+  steps_.look(height_m);
+  for (;;) {
+    const int entry = steps_.left_behind(height_m, aim_ ? aim_->target.entry : -1);
+    if (entry < 0) return;
+    const double left_m = steps_.entries()[static_cast<std::size_t>(entry)].height_m;
+    decisions.push_back({now_, HeightPassed{{Reason::kHeight, entry, left_m}}});
+  }
+}
+
+void Decider::re_aim(std::vector<Decision>& decisions) {
   aim_state_.time_to_stop_waiting = stillness_.is_time(now_);
   aim_state_.at_rest = stillness_.is_still(now_);
   if (!streaming_ && !by_pulse()) {
     aim_.reset();
+    look_at_heights(now_, decisions);
   } else {
     const HostTime earliest = by_pulse() ? now_ + pulses_.delay() : now_;
     auto gone = just_gone_by(earliest);
-    if (const auto then = navigator_.at(earliest); then && !gone) {
-      steps_.look(then->height_ellipsoidal_m - aim_state_.ground_height_m);
-    }
+    if (!gone) look_at_heights(earliest, decisions);
     aim_ = gone ? gone
                 : next_aim(options_.plan, steps_, navigator_, aim_state_, options_.stillness,
                            earliest);
@@ -226,6 +268,7 @@ void Decider::close(const Exposure& exposure, std::vector<Decision>& decisions) 
   if (taken.place) aim_state_.last_place_m = taken.place->in_enu_m.head<2>();
   if (aim_->target.reason == Reason::kAside) ++aim_state_.aside_taken;
   aim_.reset();
+  newest_.push_back({taken.number, taken.target, taken.wanted});
   decisions.push_back({now_, std::move(taken)});
 }
 
@@ -240,9 +283,9 @@ void Decider::miss(std::vector<Decision>& decisions) {
 
 std::optional<Place> Decider::place_at(HostTime time) const {
   const auto motion = navigator_.at(time);
-  if (!motion) return std::nullopt;
+  if (!motion || !aim_state_.ground_height_m) return std::nullopt;
   return Place{motion->in_enu_m,     motion->covariance_m2,
-               motion->velocity_m_s, motion->height_ellipsoidal_m - aim_state_.ground_height_m,
+               motion->velocity_m_s, motion->height_ellipsoidal_m - *aim_state_.ground_height_m,
                motion->quality,      motion->age};
 }
 

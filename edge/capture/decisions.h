@@ -66,7 +66,7 @@ struct PhotoTaken {
   Marks marks;
 };
 
-// Decided, and then no exposure came. Its target is open again.
+// Decided, and then no exposure came, or the photo was lost. Its target is open again.
 struct PhotoMissed {
   int number = 0;
   Target target;
@@ -78,7 +78,20 @@ struct PhaseChanged {
   std::optional<double> ground_height_m;  // ellipsoidal, of the take-off point
 };
 
-using Decided = std::variant<Pulse, PhotoTaken, PhotoMissed, PhaseChanged>;
+// Where a flight began without a position, or on the ground still: its take-off point, as it is
+// known from here on.
+struct GroundFound {
+  double ground_height_m = 0;  // ellipsoidal
+};
+
+// The drone has left a height of the plan behind without a photo. It is taken when the drone comes
+// by again.
+struct HeightPassed {
+  Target target;
+};
+
+using Decided =
+    std::variant<Pulse, PhotoTaken, PhotoMissed, PhaseChanged, GroundFound, HeightPassed>;
 
 struct Decision {
   HostTime time;

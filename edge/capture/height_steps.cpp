@@ -83,6 +83,17 @@ int HeightSteps::near(double height_m, double distance_m) const {
   return nearest;
 }
 
+int HeightSteps::left_behind(double height_m, int aimed_at) {
+  for (std::size_t k = 0; k < entries_.size(); ++k) {
+    Entry& entry = entries_[k];
+    if (!entry.passed || entry.taken || entry.told || static_cast<int>(k) == aimed_at) continue;
+    if (std::abs(height_m - entry.height_m) <= half_gap_m(k)) continue;
+    entry.told = true;
+    return static_cast<int>(k);
+  }
+  return -1;
+}
+
 bool HeightSteps::is_late(int entry, double height_m) const {
   const Entry& it = entries_[static_cast<std::size_t>(entry)];
   return it.passed && std::abs(height_m - it.height_m) > kGoneBy_m;

@@ -22,6 +22,7 @@ class HeightSteps {
     bool open = false;  // downwards: only after the drone was above it
     bool passed = false;
     bool taken = false;
+    bool told = false;  // that it was left behind
   };
 
   explicit HeightSteps(const CapturePlan& plan);
@@ -38,6 +39,10 @@ class HeightSteps {
 
   // The open one within `distance_m`; -1: none.
   int near(double height_m, double distance_m) const;
+
+  // One gone by that is too far away to be taken from here, each but once and never `aimed_at`; -1:
+  // none.
+  int left_behind(double height_m, int aimed_at);
 
   void set_taken(int entry, bool taken);
   bool is_late(int entry, double height_m) const;  // gone by for more than a trifle

@@ -55,14 +55,25 @@ struct ShutterOpened {
 };
 
 struct PilotSeen {
-  std::optional<bool> armed;
+  std::optional<bool> armed;  // empty: it is heard no more
 };
 
 // The time that was asked for has come.
 struct Tick {};
 
+// The autopilot's own height, by its barometer and receiver.
+struct PilotHeightSeen {
+  double above_arming_m = 0;
+  double climb_m_s = 0;
+};
+
+// A photo that was decided, and then could not be kept.
+struct PhotoLost {
+  int number = 0;
+};
+
 using Happening = std::variant<Started, Resumed, FixHeard, PulsePerSecond, FrameSeen, CameraSeen,
-                               ShutterOpened, PilotSeen, Tick>;
+                               ShutterOpened, PilotSeen, Tick, PilotHeightSeen, PhotoLost>;
 
 struct Input {
   HostTime now;  // when the deciding thread took it up; never goes back

@@ -15,6 +15,7 @@ class Since {
     if (!holds) since_.reset();
     if (holds && !since_) since_ = now;
   }
+  bool holds() const { return since_.has_value(); }
   bool lasted(HostTime now, nanoseconds time) const { return since_ && now - *since_ >= time; }
 
  private:

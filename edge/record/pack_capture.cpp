@@ -204,6 +204,15 @@ void fields(Pass& pass, T& pilot) {
 }
 template <typename Pass, Like<capture::Tick> T>
 void fields(Pass&, T&) {}
+template <typename Pass, Like<capture::PilotHeightSeen> T>
+void fields(Pass& pass, T& height) {
+  pass(height.above_arming_m);
+  pass(height.climb_m_s);
+}
+template <typename Pass, Like<capture::PhotoLost> T>
+void fields(Pass& pass, T& lost) {
+  pass(lost.number);
+}
 
 template <typename Pass, Like<capture::Pulse> T>
 void fields(Pass& pass, T& pulse) {
@@ -230,6 +239,14 @@ template <typename Pass, Like<capture::PhaseChanged> T>
 void fields(Pass& pass, T& changed) {
   pass(changed.phase);
   optional_field(pass, changed.ground_height_m);
+}
+template <typename Pass, Like<capture::GroundFound> T>
+void fields(Pass& pass, T& ground) {
+  pass(ground.ground_height_m);
+}
+template <typename Pass, Like<capture::HeightPassed> T>
+void fields(Pass& pass, T& passed) {
+  target_fields(pass, passed.target);
 }
 
 // The variant's case number `index`, read.

@@ -91,11 +91,22 @@ std::string release(const Config& config) {
                         feedback.empty() ? "" : "feedback on " + feedback});
 }
 
+std::string take_off(const capture::TakeOffOptions& options) {
+  const std::string rise = number(options.rise_m);
+  switch (options.by) {
+    case capture::TakeOffBy::kArmed:
+      return "when the autopilot is armed";
+    case capture::TakeOffBy::kRelativeAltitude:
+      return rise + " m above where the autopilot was armed";
+    case capture::TakeOffBy::kHeight:
+      break;
+  }
+  return rise + " m above the ground";
+}
+
 std::string flight(const Config& config) {
-  const capture::TakeOffOptions& take_off = config.capture.take_off;
   return line("begins",
-              {take_off.by_pilot ? "when the autopilot is armed"
-                                 : number(take_off.rise_m) + " m above the ground",
+              {take_off(config.capture.take_off),
                config.pilot.link.empty() ? "no autopilot" : "autopilot on " + config.pilot.link});
 }
 

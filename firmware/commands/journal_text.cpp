@@ -108,9 +108,20 @@ struct InputText {
     return Line(now, "shutter").with("edge", opened.edge).done();
   }
   std::string operator()(const capture::PilotSeen& pilot) const {
-    return Line(now, "pilot").flag("armed", pilot.armed.value_or(false)).done();
+    Line line(now, "pilot");
+    if (!pilot.armed) line.with("is", std::string("unheard"));
+    return line.flag("armed", pilot.armed.value_or(false)).done();
   }
   std::string operator()(const capture::Tick&) const { return Line(now, "tick").done(); }
+  std::string operator()(const capture::PilotHeightSeen& height) const {
+    return Line(now, "pilot_height")
+        .with("above_arming_m", height.above_arming_m, "%.3f")
+        .with("climb_m_s", height.climb_m_s, "%.2f")
+        .done();
+  }
+  std::string operator()(const capture::PhotoLost& lost) const {
+    return Line(now, "lost").count("photo", lost.number).done();
+  }
 };
 
 void add(Line& line, const capture::Place& place) {
@@ -153,6 +164,14 @@ struct DecisionText {
         .with("is", name_of(changed.phase))
         .with("ground_m", changed.ground_height_m)
         .done();
+  }
+  std::string operator()(const capture::GroundFound& ground) const {
+    return Line(time, "ground").with("ground_m", ground.ground_height_m, "%.3f").done();
+  }
+  std::string operator()(const capture::HeightPassed& passed) const {
+    Line line(time, "passed");
+    add(line, passed.target);
+    return line.done();
   }
 };
 

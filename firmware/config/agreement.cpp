@@ -64,11 +64,13 @@ void settle_lines(Config& config, std::vector<Disagreement>& found) {
 
 void settle_take_off(Config& config, std::vector<Disagreement>& found) {
   capture::TakeOffOptions& take_off = config.capture.take_off;
-  if (take_off.by_pilot && config.pilot.link.empty()) {
+  if (take_off.by != capture::TakeOffBy::kHeight && config.pilot.link.empty()) {
+    const bool armed = take_off.by == capture::TakeOffBy::kArmed;
     found.push_back({{{"take_off", "by"}, {"pilot", "link"}},
-                     "by = \"pilot\" needs the autopilot; write its link under [pilot], such as "
-                     "link = \"/dev/ttyAMA1@57600\"."});
-    take_off.by_pilot = false;
+                     std::string("by = \"") + (armed ? "pilot" : "relative_altitude") +
+                         "\" needs the autopilot; write its link under [pilot], such as "
+                         "link = \"/dev/ttyAMA1@57600\"."});
+    take_off.by = capture::TakeOffBy::kHeight;
   }
   if (take_off.landed_below_m >= take_off.rise_m) {
     found.push_back({{{"take_off", "landed_below_m"}, {"take_off", "rise_m"}},

@@ -81,10 +81,17 @@ std::vector<Key> other_keys() {
 
 std::vector<Key> take_off_keys() {
   return {
-      choice({"take_off", "by",
-              "What begins and ends a flight: \"height\", or \"pilot\": the autopilot is armed "
-              "(needs the link of [pilot])."},
-             {{"height", false}, {"pilot", true}}, PLUMBLINE_FIELD(capture.take_off.by_pilot)),
+      choice(
+          {"take_off", "by",
+           "What begins and ends a flight: \"height\" of the receiver; \"pilot\": the autopilot is "
+           "armed; \"relative_altitude\": its height above where it was armed, by rise_m and "
+           "landed_below_m. The last two need the link of [pilot]; while no autopilot is heard, "
+           "the "
+           "receiver's height decides."},
+          {{"height", capture::TakeOffBy::kHeight},
+           {"pilot", capture::TakeOffBy::kArmed},
+           {"relative_altitude", capture::TakeOffBy::kRelativeAltitude}},
+          PLUMBLINE_FIELD(capture.take_off.by)),
       number({"take_off", "rise_m",
               "A flight begins when the drone has been so far above the ground, and three "
               "sigmas of its height, for rise_lasts_s."},

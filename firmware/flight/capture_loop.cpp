@@ -77,6 +77,8 @@ void CaptureLoop::take(DeviceEvent event) {
 
 void CaptureLoop::tick() { hear(capture::Tick{}); }
 
+void CaptureLoop::lose(int number) { hear(capture::PhotoLost{number}); }
+
 void CaptureLoop::take_receiver(ReceiverEvent& event) {
   std::visit(Match{[&](ReceivedBytes& bytes) {
                      actions_.record(record::Bytes{bytes.arrival, std::move(bytes.bytes)});
@@ -125,8 +127,10 @@ void CaptureLoop::take_pilot(const PilotEvent& event) {
     actions_.record(*attitude);
   } else if (const auto* position = std::get_if<PilotPosition>(&event)) {
     actions_.record(*position);
+    hear(capture::PilotHeightSeen{position->relative_altitude_m, position->velocity_enu_m_s.z()});
   } else if (const auto* report = std::get_if<PilotReport>(&event)) {
     const bool good = report->state == PilotState::kAutopilot;
+    if (!good && std::exchange(armed_, std::nullopt)) hear(capture::PilotSeen{});
     say(good ? record::Severity::kInfo : record::Severity::kWarning, "autopilot", report->sentence);
   }
 }
@@ -163,6 +167,7 @@ void CaptureLoop::hear(capture::Happening what) {
     if (const auto* taken = std::get_if<capture::PhotoTaken>(&decision.what)) keep(*taken);
   }
   std::erase_if(frames_, [this](const auto& held) { return !decider_.holds(held.first); });
+  if (const auto number = std::exchange(without_frame_, std::nullopt)) lose(*number);
 }
 
 void CaptureLoop::keep(const capture::PhotoTaken& taken) {
@@ -171,6 +176,7 @@ void CaptureLoop::keep(const capture::PhotoTaken& taken) {
   if (held == frames_.end()) {
     say(record::Severity::kFault, "camera",
         "The frame of photo " + std::to_string(taken.number) + " was gone when it was chosen.");
+    without_frame_ = taken.number;
     return;
   }
   actions_.keep(taken.number, std::move(held->second));

@@ -55,7 +55,8 @@ class CaptureLoop {
              const std::deque<capture::Input>& before = {});
 
   void take(DeviceEvent event);
-  void tick();  // when due() has come
+  void tick();            // when due() has come
+  void lose(int number);  // a photo that was handed to `keep`
   HostTime due() const { return decider_.due(); }
 
   const capture::Decider& decider() const { return decider_; }
@@ -79,6 +80,7 @@ class CaptureLoop {
   bool receiver_jumped_ = false;
   bool streaming_ = false;
   std::optional<bool> armed_;
+  std::optional<int> without_frame_;  // the photo
 };
 
 }  // namespace plumbline::flight

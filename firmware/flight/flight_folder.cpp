@@ -64,6 +64,8 @@ void read_decision(const capture::Decision& decision, Story& story) {
   if (const auto* changed = std::get_if<capture::PhaseChanged>(&decision.what)) {
     if (changed->phase == capture::Phase::kFlying) story.flying = true;
     if (changed->ground_height_m) story.ground_height_m = changed->ground_height_m;
+  } else if (const auto* ground = std::get_if<capture::GroundFound>(&decision.what)) {
+    story.ground_height_m = ground->ground_height_m;
   } else if (const auto* pulse = std::get_if<capture::Pulse>(&decision.what)) {
     story.photos = std::max(story.photos, pulse->number);
   } else if (const auto* taken = std::get_if<capture::PhotoTaken>(&decision.what)) {
@@ -230,7 +232,7 @@ Result<OpenFlight> go_on(Storage& storage, const std::string& folder, Story stor
   if (const Status found = find_photos(storage, folder, story, flight); !found) {
     return found.error();
   }
-  if (story.ground_height_m) flight.resumed = resumed_from(story);
+  flight.resumed = resumed_from(story);
   flight.journal = std::make_unique<JournalFile>(storage, path, story.summary.whole_bytes);
   flight.next_sequence = story.next_sequence;
   flight.boot = story.boot;
@@ -263,7 +265,10 @@ Result<OpenFlight> open_flight(Storage& storage) {
   const auto photos = storage.list(folder + "/photos");
   const bool no_photos = !photos || photos->empty();
   if (!story->flying && no_photos) return start_over(storage, folder, *story);
-  if (story->summary.whole_bytes == 0) return start_in(storage, four_digits(*last + 1));
+  // Without the ground its heights mean nothing, and its photos must not be taken again.
+  if (story->summary.whole_bytes == 0 || !story->ground_height_m) {
+    return start_in(storage, four_digits(*last + 1));
+  }
   return go_on(storage, folder, std::move(*story));
 }
 

@@ -144,10 +144,11 @@ TEST(TakeOffWatch, HasLandedAfterFiveSecondsLowAndStill) {
 
 TEST(TakeOffWatch, BelievesTheVehicleWhereItIsToldTo) {
   TakeOffOptions options;
-  options.by_pilot = true;
+  options.by = TakeOffBy::kArmed;
   TakeOffWatch watch(options);
   fly(watch, {0, 10, 52.0});
   fly(watch, {10, 20, 52.0, 2});
+  watch.set_armed(false);
   EXPECT_FALSE(watch.has_taken_off(at_s(20)));
   watch.set_armed(true);
   EXPECT_TRUE(watch.has_taken_off(at_s(20)));
