@@ -17,6 +17,16 @@ std::string_view text_of(const std::vector<std::uint8_t>& bytes) {
   return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
 }
 
+// How full the memory for entries may be for this one, where `most` is what it should hold.
+std::size_t most_for(const record::Entry& entry, std::size_t most) {
+  constexpr std::size_t kNoLimit = static_cast<std::size_t>(-1);
+  if (std::holds_alternative<record::Stored>(entry)) return kNoLimit;
+  if (std::holds_alternative<record::Ended>(entry)) return kNoLimit;
+  const bool is_said = std::holds_alternative<capture::Decision>(entry) ||
+                       std::holds_alternative<record::Message>(entry);
+  return is_said ? 2 * most : most;
+}
+
 }  // namespace
 
 Recorder::Recorder(Storage& storage, const Clock& clock, std::optional<OpenFlight> flight,
@@ -35,7 +45,7 @@ Recorder::Recorder(Storage& storage, const Clock& clock, std::optional<OpenFligh
 
 void Recorder::record(const record::Entry& entry) {
   const std::lock_guard lock(mutex_);
-  if (handed_.size() > options_.most_waiting_bytes) {
+  if (handed_.size() > most_for(entry, options_.most_waiting_bytes)) {
     ++counts_.lost_entries;
     return;
   }
@@ -123,6 +133,7 @@ bool Recorder::work() {
     in_trouble_ = false;
     sink_(DiskIsBack{});
   }
+  if (!in_trouble_) tell_of_lost_entries();
   const std::lock_guard lock(mutex_);
   durable_ = handed_.empty() && photos_.empty() && expected_ == 0 && journal_->waiting_bytes() == 0;
   return stored;
@@ -207,6 +218,15 @@ void Recorder::sync_journal(HostTime now) {
 void Recorder::trouble(const Error& error, HostTime now) {
   again_ = now + options_.again_after;
   if (!std::exchange(in_trouble_, true)) sink_(DiskTrouble{error.sentence});
+}
+
+void Recorder::tell_of_lost_entries() {
+  std::uint64_t lost = 0;
+  {
+    const std::lock_guard lock(mutex_);
+    lost = counts_.lost_entries - std::exchange(lost_told_, counts_.lost_entries);
+  }
+  if (lost > 0) sink_(EntriesLost{lost});
 }
 
 HostTime Recorder::due() const {

@@ -33,7 +33,11 @@ struct DiskTrouble {
   std::string sentence;
 };
 struct DiskIsBack {};
-using RecorderEvent = std::variant<PhotoIsStored, DiskTrouble, DiskIsBack>;
+// The disk was so slow that memory did not hold what was to be written; photos are not among them.
+struct EntriesLost {
+  std::uint64_t count = 0;
+};
+using RecorderEvent = std::variant<PhotoIsStored, DiskTrouble, DiskIsBack, EntriesLost>;
 
 struct RecorderCounts {
   std::uint64_t entries = 0;
@@ -55,7 +59,8 @@ class Recorder {
   Recorder(Storage& storage, const Clock& clock, std::optional<OpenFlight> flight,
            const RecorderOptions& options, Sink sink);
 
-  // From any thread; never wait for the disk.
+  // From any thread; never wait for the disk. Where memory for entries is full, what devices sent
+  // is lost first, and the name of a stored photo never.
   void record(const record::Entry& entry);
   // A photo will come, or not: the flight does not end before it has.
   void expect_photo();
@@ -91,6 +96,7 @@ class Recorder {
   Status publish_photo(const Photo& photo);
   void sync_journal(HostTime now);
   void trouble(const Error& error, HostTime now);
+  void tell_of_lost_entries();
 
   Storage& storage_;
   const Clock& clock_;
@@ -116,6 +122,7 @@ class Recorder {
   bool end_is_written_ = false;
   std::optional<HostTime> again_;  // the disk refused: not before
   bool in_trouble_ = false;
+  std::uint64_t lost_told_ = 0;
 };
 
 }  // namespace plumbline::flight

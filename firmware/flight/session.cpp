@@ -180,12 +180,12 @@ void Session::keep(int number, Frame frame) {
       recorder->photo_failed();
       trouble = jpeg.error().sentence;
     } else if (!recorder->store(number, std::move(jpeg).value())) {
-      trouble = "Too many photos wait for the disk";
+      trouble = "too many wait for the disk; it is taken again where its height is passed again.";
     }
     if (disk_worker_) disk_worker_->wake();
     if (trouble.empty()) return;
-    queue_.push(record::Message{devices_.clock.now(), record::Severity::kFault, "photo",
-                                "Photo " + std::to_string(number) + " was lost: " + trouble});
+    queue_.push(LostOnTheWay{number, recorder.get(),
+                             "Photo " + std::to_string(number) + " was lost: " + trouble});
   });
   if (encode_worker_) encode_worker_->wake();
 }
@@ -208,6 +208,9 @@ void Session::take(Event event) {
     take_from_disk(*disk);
   } else if (const auto* flight = std::get_if<FlightEnded>(&event)) {
     events_.ended(flight->folder);
+  } else if (const auto* lost = std::get_if<LostOnTheWay>(&event)) {
+    say(record::Severity::kFault, "photo", lost->sentence);
+    if (lost->flight == recorder_.get()) loop_->lose(lost->number);
   } else {
     const auto& message = std::get<record::Message>(event);
     recorder_->record(message);
@@ -220,6 +223,11 @@ void Session::take_from_disk(const FromDisk& from) {
     events_.stored(stored->number, from.folder);
   } else if (const auto* trouble = std::get_if<DiskTrouble>(&from.event)) {
     say(record::Severity::kFault, "disk", trouble->sentence);
+  } else if (const auto* lost = std::get_if<EntriesLost>(&from.event)) {
+    say(record::Severity::kFault, "disk",
+        std::to_string(lost->count) +
+            " entries of the journal were lost while the disk took too little; no photo is among "
+            "them. Use a faster disk.");
   } else {
     say(record::Severity::kInfo, "disk", "The disk takes what is written again.");
   }

@@ -94,7 +94,13 @@ class Session {
   struct FlightEnded {
     std::string folder;
   };
-  using Event = std::variant<DeviceEvent, FromDisk, FlightEnded, record::Message>;
+  // Decided and exposed, and then neither encoded nor taken by the disk's queue.
+  struct LostOnTheWay {
+    int number = 0;
+    const Recorder* flight = nullptr;  // only to compare
+    std::string sentence;
+  };
+  using Event = std::variant<DeviceEvent, FromDisk, FlightEnded, LostOnTheWay, record::Message>;
 
   void start_workers();
   void start_pulse_worker();

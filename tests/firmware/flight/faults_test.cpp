@@ -45,9 +45,8 @@ bool has_mark(const capture::PhotoTaken& taken) {
 
 class FaultInFlight : public testing::Test {
  protected:
-  void begin(const flights::DroneOptions& options) {
+  void begin(const flights::DroneOptions& options, SessionOptions plan = {}) {
     drone_ = std::make_unique<flights::Drone>(options);
-    SessionOptions plan;
     plan.threads = false;
     SessionEvents events;
     events.stored = [this](int number, const std::string&) { reported_.push_back(number); };
@@ -240,6 +239,41 @@ TEST_F(FaultInFlight, KeepsWhatAFullDiskRefusesUntilThereIsSpace) {
   EXPECT_FALSE(sentences(flight_, "disk", "again").empty());
   EXPECT_LT(then, flight_.taken.size());
   EXPECT_EQ(reported_.size(), flight_.taken.size());
+  expect_every_height();
+}
+
+// The disk is full between 44 and 74 m, and memory holds two photos: those that find no place there
+// are lost and said, and on the way down their heights are taken again.
+TEST_F(FaultInFlight, TakesAHeightAgainWhosePhotoFoundNoPlaceInMemory) {
+  SessionOptions plan;
+  plan.recorder.most_waiting_photos = 2;
+  begin(climb(), plan);
+  at(30, [this] { disk_.set_capacity(1000); });
+  at(45, [this] { disk_.set_capacity(1u << 30); });
+  session_->run(drone_->end());
+  session_->finish("switched off");
+  flight_ = recorded_flight(disk_, "0001");
+  EXPECT_FALSE(sentences(flight_, "photo", "was lost: too many wait for the disk").empty());
+  EXPECT_FALSE(flight_.missed.empty());
+  std::set<double> stored_m;
+  for (const auto& [number, stored] : flight_.stored) {
+    EXPECT_TRUE(is_whole(disk_, "0001", stored));
+    const capture::Target& target = flight_.taken.at(number).target;
+    if (target.reason == capture::Reason::kHeight) stored_m.insert(target.height_m);
+  }
+  EXPECT_EQ(stored_m.size(), 13u);
+}
+
+// Memory for the journal is soon full: what devices said is lost, and told; what was decided, and
+// the names of photos, are not.
+TEST_F(FaultInFlight, TellsOfEntriesThatWereLostAndLosesNoNameOfAPhoto) {
+  SessionOptions plan;
+  plan.recorder.most_waiting_bytes = 20'000;
+  begin(climb(), plan);
+  at(30, [this] { disk_.set_capacity(1000); });
+  at(45, [this] { disk_.set_capacity(1u << 30); });
+  fly_to_the_end();
+  EXPECT_FALSE(sentences(flight_, "disk", "entries of the journal were lost").empty());
   expect_every_height();
 }
 
