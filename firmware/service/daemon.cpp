@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "firmware/service/daemon.h"
 
+#include <cstdio>
 #include <fstream>
 #include <utility>
 
@@ -128,6 +129,13 @@ void Daemon::tell(const std::string& sentence) {
 void Daemon::tell(const capture::Decision& decision) {
   if (const auto* missed = std::get_if<capture::PhotoMissed>(&decision.what)) {
     if (missed->number > 0) tell("Photo " + std::to_string(missed->number) + " did not come.");
+  } else if (const auto* passed = std::get_if<capture::HeightPassed>(&decision.what)) {
+    char height[32];
+    std::snprintf(height, sizeof height, "%g m", passed->target.height_m);
+    tell(std::string("No photo at ") + height + ": it was left behind; fly there again.");
+    if (devices_.pilot == nullptr) return;
+    devices_.pilot->say(PilotSeverity::kWarning,
+                        std::string("No photo at ") + height + ": fly there again");
   } else if (std::holds_alternative<capture::PhaseChanged>(decision.what)) {
     tell(board_.sentence());
   }

@@ -51,6 +51,7 @@ void StatusBoard::decided(const capture::Decision& decision) {
     if (phase->phase == capture::Phase::kFlying && phase_ != capture::Phase::kFlying) {
       taken_ = stored_ = missed_ = marked_ = 0;
       last_photo_.reset();
+      left_m_.clear();
       advice_.clear();
     }
     phase_ = phase->phase;
@@ -58,9 +59,14 @@ void StatusBoard::decided(const capture::Decision& decision) {
   } else if (const auto* taken = std::get_if<capture::PhotoTaken>(&decision.what)) {
     ++taken_;
     if (is_marked(taken->marks)) ++marked_;
+    left_m_.erase(taken->target.entry);
     last_photo_ = *taken;
   } else if (std::holds_alternative<capture::PhotoMissed>(decision.what)) {
     ++missed_;
+  } else if (const auto* ground = std::get_if<capture::GroundFound>(&decision.what)) {
+    ground_height_m_ = ground->ground_height_m;
+  } else if (const auto* passed = std::get_if<capture::HeightPassed>(&decision.what)) {
+    left_m_[passed->target.entry] = passed->target.height_m;
   }
   changed();
 }
@@ -113,6 +119,16 @@ std::string StatusBoard::sentence() const {
   return sentence_locked();
 }
 
+std::string StatusBoard::left_behind(const char* what_then) const {
+  std::string heights;
+  for (const auto& [entry, height_m] : left_m_) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%s%g m", heights.empty() ? "" : ", ", height_m);
+    heights += text;
+  }
+  return heights.empty() ? "" : " No photo at " + heights + what_then;
+}
+
 std::string StatusBoard::sentence_locked() const {
   const std::string fix = fix_ ? name_of(fix_->quality) : "no position";
   std::string text;
@@ -146,10 +162,11 @@ std::string StatusBoard::sentence_locked() const {
       }
       text += ": " + fix + "; " + photos;
       if (needs_frames_ && !streaming_) text += " No camera sends frames: no photo is taken.";
+      text += left_behind(": fly there again.");
       if (!advice_.empty()) text += " " + advice_;
       break;
     case capture::Phase::kLanded:
-      text = "Landed: " + photos;
+      text = "Landed: " + photos + left_behind(".");
       break;
   }
   if (phase_ != capture::Phase::kFlying && !result_.empty()) text += " " + result_;

@@ -38,6 +38,7 @@ class StatusBoard {
 
  private:
   std::string sentence_locked() const;
+  std::string left_behind(const char* what_then) const;
   bool lacks_space() const { return free_photos_ && *free_photos_ < planned_photos_; }
   void changed() { ++version_; }
 
@@ -50,6 +51,7 @@ class StatusBoard {
   bool streaming_ = false;
   int taken_ = 0, stored_ = 0, missed_ = 0, marked_ = 0;
   std::optional<capture::PhotoTaken> last_photo_;
+  std::map<int, double> left_m_;  // heights gone by without a photo, by their number in the plan
   std::map<std::string, record::Message> last_said_;  // by source
   std::string flight_, last_flight_, advice_, result_;
   std::optional<std::int64_t> free_photos_;

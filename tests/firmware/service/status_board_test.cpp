@@ -48,6 +48,20 @@ TEST(StatusBoard, IsNotReadyWhereTheDiskHasNoRoomForTheFlight) {
   EXPECT_EQ(nlohmann::json::parse(board.json())["planned_photos"], 14);
 }
 
+TEST(StatusBoard, SaysWhichHeightsHaveNoPhotoUntilTheyHave) {
+  StatusBoard board;
+  board.decided(phase(capture::Phase::kFlying));
+  board.decided({HostTime{}, capture::HeightPassed{{capture::Reason::kHeight, 3, 45}}});
+  board.decided({HostTime{}, capture::HeightPassed{{capture::Reason::kHeight, 4, 47.5}}});
+  EXPECT_THAT(board.sentence(), HasSubstr("No photo at 45 m, 47.5 m: fly there again."));
+  capture::PhotoTaken taken;
+  taken.target = {capture::Reason::kHeight, 3, 45};
+  board.decided({HostTime{}, taken});
+  EXPECT_THAT(board.sentence(), HasSubstr("No photo at 47.5 m:"));
+  board.decided(phase(capture::Phase::kLanded));
+  EXPECT_THAT(board.sentence(), HasSubstr("No photo at 47.5 m."));
+}
+
 TEST(StatusBoard, CountsThePhotosOfTheFlightAndShowsThemAsJson) {
   StatusBoard board;
   board.decided(phase(capture::Phase::kFlying));
