@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kJump_m = 1;      // at the least
 constexpr double kJumpSigmas = 6;  // and beyond what is known
+constexpr double kAnywhere_m = 100;
 
 Motion later(const Motion& last, HostTime time) {
   Motion motion = last;
@@ -85,11 +86,13 @@ void Navigator::follow_height(GpsTime epoch, const GnssFix& fix) {
   const double before_m2 = std::exchange(
       stated_m2_, fix.covariance_enu_m2 ? (*fix.covariance_enu_m2)(2, 2)
                                         : std::pow(gnss::usual_sigma_enu_m(fix.quality).z(), 2));
-  const bool begins = !newest_ || predictor_.summary().restarts != restarts_;
+  const bool begins = !newest_ || epoch - *newest_ > options_.predictor.longest_gap;
   if (begins) {
     heights_.begin(height_m, stated_m2_);
   } else {
     if (fix.quality != newest_quality_) heights_.unsettle(before_m2 + stated_m2_);
+    // The position has jumped: the climb goes on.
+    if (predictor_.summary().restarts != restarts_) heights_.unsettle(kAnywhere_m * kAnywhere_m);
     heights_.add(in_seconds(epoch - *newest_), height_m, stated_m2_);
   }
   newest_ = epoch;

@@ -85,13 +85,17 @@ bool AntennaPredictor::go_on(const Seen& seen) {
     return true;
   }
   MotionState foreseen = filter_.after(last.state, in_seconds(gap));
-  if (seen.quality != last.quality) {
-    foreseen.covariance.topLeftCorner<3, 3>() += last.stated_m2 + seen.stated_m2;
-  }
+  Eigen::Matrix3d changed_m2 = Eigen::Matrix3d::Zero();
+  if (seen.quality != last.quality) changed_m2 = last.stated_m2 + seen.stated_m2;
+  foreseen.covariance.topLeftCorner<3, 3>() += changed_m2;
   const Eigen::Matrix3d noise_m2 = options_.white_share * seen.stated_m2;
   // The common error drifts, too: what is stated, not the white part, is the measure.
   if (sigmas_off(foreseen, seen.position_m, seen.stated_m2) > options_.gate_sigmas) {
-    return refuse(seen);
+    foreseen = filter_.after_a_turn(last.state, in_seconds(gap));
+    foreseen.covariance.topLeftCorner<3, 3>() += changed_m2;
+    if (sigmas_off(foreseen, seen.position_m, seen.stated_m2) > options_.turn_gate_sigmas) {
+      return refuse(seen);
+    }
   }
   const MotionState state = MotionFilter::with(foreseen, seen.position_m, noise_m2);
   keep({seen.time, foreseen, state, seen.stated_m2, seen.quality, seen.sigma_assumed, false});

@@ -24,7 +24,8 @@ struct PredictorOptions {
   nanoseconds history = std::chrono::seconds(10);       // how far back at() reaches
   std::size_t most_epochs = 256;                        // kept, whatever the rate
   double gate_sigmas = 6;                               // a fix further off is left out,
-  int confirming = 3;                                   // unless so many in a row are
+  double turn_gate_sigmas = 3;  // unless a pilot at the stick may have got there,
+  int confirming = 3;           // or so many in a row are
 };
 
 struct PredictedAntenna {

@@ -42,6 +42,14 @@ MotionState MotionFilter::after(const MotionState& state, double seconds) const 
   return {f * state.mean, symmetric(f * state.covariance * f.transpose() + process_noise(seconds))};
 }
 
+MotionState MotionFilter::after_a_turn(MotionState state, double seconds) const {
+  const double v = options_.turn_velocity_m_s;
+  const double a = options_.turn_acceleration_m_s2;
+  state.covariance.diagonal().segment<3>(3).array() += v * v;
+  state.covariance.diagonal().tail<3>().array() += a * a;
+  return after(state, seconds);
+}
+
 MotionState MotionFilter::with(const MotionState& state, const Eigen::Vector3d& position_m,
                                const Eigen::Matrix3d& noise_m2) {
   const Eigen::Matrix<double, 9, 3> to_seen = state.covariance.leftCols<3>();

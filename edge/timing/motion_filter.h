@@ -24,6 +24,8 @@ struct MotionOptions {
   double acceleration_sigma_m_s2 = 1.2;
   double correlation_s = 1.0;
   double velocity_sigma_m_s = 10;  // before anything is known
+  double turn_acceleration_m_s2 = 4;
+  double turn_velocity_m_s = 0.4;
 };
 
 // The Kalman filter of that motion. Pure functions of state and time.
@@ -35,6 +37,10 @@ class MotionFilter {
 
   // `seconds` >= 0 later, nothing having been seen.
   MotionState after(const MotionState& state, double seconds) const;
+
+  // The same where a pilot may have moved the sticks just then: velocity and acceleration are less
+  // certain by these standard deviations.
+  MotionState after_a_turn(MotionState state, double seconds) const;
 
   // With a position seen at the instant of `state`.
   static MotionState with(const MotionState& state, const Eigen::Vector3d& position_m,

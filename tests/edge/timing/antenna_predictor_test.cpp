@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/edge/timing/simulated_climb.h"
@@ -105,6 +106,26 @@ TEST(AntennaPredictor, LeavesOutOneWildFixButFollowsThree) {
   EXPECT_NEAR(enu_of(*predictor.at(gps_at(20.8))).x(), 8, 0.01);
   EXPECT_EQ(predictor.summary().outliers, 3u);
   EXPECT_EQ(predictor.summary().restarts, 1u);
+}
+
+// Up at 3 m/s; from second 20 on 4 m/s2 downwards for a second, then as much upwards.
+double bobbing_m(double t_s) {
+  const double down_s = std::clamp(t_s - 20, 0.0, 1.0), up_s = std::clamp(t_s - 21, 0.0, 1.0);
+  return 3 * t_s - 2 * down_s * down_s - 4 * (std::max(t_s, 21.0) - 21) + 2 * up_s * up_s +
+         4 * (std::max(t_s, 22.0) - 22);
+}
+
+TEST(AntennaPredictor, FollowsAPilotWhoTurnsBackAndOnAgain) {
+  for (const double step_s : {0.1, 0.2, 1.0}) {
+    AntennaPredictor predictor;
+    for (int k = 0; step_s * k < 30; ++k) {
+      EXPECT_TRUE(predictor.add(fix_at(step_s * k, {0, 0, bobbing_m(step_s * k)}, kSigma_m)));
+    }
+    EXPECT_EQ(predictor.summary().outliers, 0u) << step_s;
+    EXPECT_EQ(predictor.summary().restarts, 0u) << step_s;
+    const auto after = predictor.at(gps_at(29.9));
+    EXPECT_NEAR(enu_of(*after).z(), bobbing_m(29.9), 0.05) << step_s;
+  }
 }
 
 TEST(AntennaPredictor, LeavesOutRepeatedAndOlderEpochs) {
