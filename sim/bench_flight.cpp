@@ -41,19 +41,20 @@ double sway(double seconds, double period_s, double phase) {
 
 }  // namespace
 
-Result<BenchFlight> BenchFlight::make(const Profile& profile, std::uint64_t seed, int threads) {
+Result<BenchFlight> BenchFlight::make(const Profile& profile, std::uint64_t seed, int threads,
+                                      const std::optional<Image>& ground_photo) {
   auto frame = geodesy::LocalFrame::at(
       {profile.origin_latitude_deg, profile.origin_longitude_deg, profile.origin_height_m});
   if (!frame) return frame.error();
-  return BenchFlight(profile, seed, threads, std::move(*frame));
+  return BenchFlight(profile, seed, threads, std::move(*frame), ground_photo);
 }
 
 BenchFlight::BenchFlight(const Profile& profile, std::uint64_t seed, int threads,
-                         geodesy::LocalFrame frame)
+                         geodesy::LocalFrame frame, const std::optional<Image>& ground_photo)
     : flight_(fly(profile, seed)),
       path_(path_options(profile), seed),
       frame_(std::move(frame)),
-      world_(world_for(with_gusts(profile), seed, threads), std::nullopt),
+      world_(world_for(with_gusts(profile), seed, threads), ground_photo),
       threads_(threads),
       yaw_deg_(profile.yaw_deg.value_or(Random(seed, kYawStream).uniform(0, 360))) {
   flight_.shots.clear();

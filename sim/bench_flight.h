@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,10 @@ namespace plumbline::sim {
 class BenchFlight {
  public:
   // Climbs at the profile's rate to 2 m above its highest photo, goes aside by its first side-step,
-  // and lands. Fails where the profile's origin is no place.
-  static Result<BenchFlight> make(const Profile& profile, std::uint64_t seed, int threads);
+  // and lands. The ground is made up, or painted with a photo. Fails where the profile's origin is
+  // no place.
+  static Result<BenchFlight> make(const Profile& profile, std::uint64_t seed, int threads,
+                                  const std::optional<Image>& ground_photo = {});
 
   geometry::Pose pose_at(double seconds) const;
   geodesy::Geodetic antenna_at(double seconds) const;
@@ -32,6 +35,7 @@ class BenchFlight {
   // Three channels, global shutter. Even grey from less than 2 m.
   Image photograph(double seconds) const;
 
+  double duration_s() const { return path_.duration_s(); }
   const geodesy::LocalFrame& frame() const { return frame_; }
   const World& world() const { return world_; }
   const geometry::Camera& calibrated_camera() const { return flight_.calibrated_camera; }
@@ -44,7 +48,8 @@ class BenchFlight {
   Flight flown(const std::vector<Taken>& photos) const;
 
  private:
-  BenchFlight(const Profile& profile, std::uint64_t seed, int threads, geodesy::LocalFrame frame);
+  BenchFlight(const Profile& profile, std::uint64_t seed, int threads, geodesy::LocalFrame frame,
+              const std::optional<Image>& ground_photo);
 
   Flight flight_;  // without shots
   ClimbPath path_;

@@ -75,6 +75,7 @@ class Maker {
   Eigen::Vector3d on_line(double height_m) const { return foot_ + Eigen::Vector3d(0, 0, height_m); }
 
   void add_aside(double d) {
+    if (d < options_.least_aside_m) return;
     Change change;
     change.what = "one more photo " + metres(d) + " m aside, at " + about_metres(top_m_) + " m";
     change.options = "--side-step " + metres(d);
@@ -85,6 +86,7 @@ class Maker {
   }
 
   void add_l(double d) {
+    if (d < options_.least_aside_m) return;
     const Eigen::Vector3d first = aside_direction(flight_);
     const Eigen::Vector3d second(-first.y(), first.x(), 0);
     Change change;
@@ -92,6 +94,7 @@ class Maker {
                   " m across, at " + about_metres(top_m_) + " m";
     change.options = "--side-step " + metres(d) + "," + metres(d);
     change.aside_m = d;
+    change.across = true;
     change.photos_m = {on_line(top_m_) + d * first, on_line(top_m_) + d * (first + second)};
     change.cost_s = (2 + std::numbers::sqrt2) * d / options_.costs.aside_rate_m_s + stops(2);
     changes_.push_back(change);
@@ -108,6 +111,7 @@ class Maker {
     change.what =
         "climb on to " + about_metres(end) + " m (" + photos(change.photos_m.size()) + ")";
     change.options = "--to " + metres(end);
+    change.climb_m = end;
     change.cost_s = 2 * d / options_.costs.climb_rate_m_s + stops(change.photos_m.size());
     changes_.push_back(change);
   }
@@ -124,12 +128,15 @@ class Maker {
     change.what = "take photos from " + about_metres(start) + " m on (" +
                   photos(change.photos_m.size()) + ")";
     change.options = "--from " + metres(start);
+    change.from_m = start;
     change.cost_s = stops(change.photos_m.size());
     changes_.push_back(change);
   }
 
   void add_between() {
+    if (!options_.photos_between) return;
     Change change;
+    change.step_m = 0.5 * step_m_;
     for (double h = bottom_m_ + 0.5 * step_m_; h < top_m_; h += step_m_) {
       change.photos_m.push_back(on_line(h));
     }
@@ -202,6 +209,8 @@ std::vector<Change> paired_changes(const std::vector<Change>& singles) {
       Change both = other;
       both.what += ", and " + aside.what;
       both.options += " " + aside.options;
+      both.aside_m = aside.aside_m;
+      both.across = aside.across;
       both.cost_s += aside.cost_s;
       both.photos_m.insert(both.photos_m.end(), aside.photos_m.begin(), aside.photos_m.end());
       pairs.push_back(both);

@@ -16,7 +16,12 @@ struct Change {
   std::string options;  // of `plumbline plan`, to try it: "--side-step 10"
   double cost_s = 0;    // by Options::costs
   std::vector<Eigen::Vector3d> photos_m;
-  double aside_m = 0;  // 0: not a side-step
+  // What of it there is to do; two changes together have two of these.
+  double aside_m = 0;             // 0: not a side-step
+  bool across = false;            // and as far at a right angle: an L
+  std::optional<double> climb_m;  // to this height, for a longer climb
+  std::optional<double> from_m;   // photos from this height on, for one that begins lower
+  std::optional<double> step_m;   // instead of the usual one
   std::optional<double> heading_sigma_deg;
   std::optional<double> known_length_m;
   int control_points = 0;

@@ -24,11 +24,19 @@ struct Climb {
 // every 2.5 m, then 5 m aside. Empty for any other name.
 std::optional<Climb> named_climb(const std::string& name);
 
+// What the receiver told of the place of one photo.
+struct PhotoFix {
+  Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Identity();  // white: of this photo alone
+  // Of the antenna: an exposure that is late by Options::delay_sigma_s is off by it.
+  Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
+};
+
 // Where the camera is at each photo: east and north about any origin, height above the ground,
 // metres. A flight in the air has photos that were taken and photos to come; a planned one has
 // only the latter. Taken ones are where they were taken; those ahead may wander about their place.
 struct Flight {
   std::vector<Eigen::Vector3d> taken_m;
+  std::vector<PhotoFix> taken_fixes;  // one for each that was taken; none: as Options::rtk has it
   std::vector<Eigen::Vector3d> ahead_m;
   std::optional<Eigen::Vector2d> foot_m;  // of the climb; default: the median of the places
 

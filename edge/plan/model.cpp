@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "edge/plan/model.h"
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "edge/base/index.h"
 #include "edge/base/units.h"
@@ -28,18 +30,25 @@ geometry::Pose pose_at(const Eigen::Vector3d& place, std::size_t photo, const Op
   return {place, geometry::ground_from_photo({tilt.x(), tilt.y(), turn})};
 }
 
-orient::Photo photo_of(const geometry::Pose& pose, const Options& options) {
+orient::Photo photo_of(const geometry::Pose& pose, const std::optional<PhotoFix>& fix,
+                       const Options& options) {
   orient::Photo photo;
-  if (options.rtk) {
-    const double h = options.rtk->sigma_horizontal_m, v = options.rtk->sigma_vertical_m;
-    photo.station = orient::Station{
-        pose.centre_m, Eigen::Matrix3d(Eigen::Vector3d(h * h, h * h, v * v).asDiagonal())};
-  }
+  if (fix) photo.station = orient::Station{pose.centre_m, fix->covariance_m2};
+  if (fix && options.delay_sigma_s > 0) photo.velocity_in_enu_m_s = fix->velocity_m_s;
   if (options.heading_sigma_deg) {
     photo.heading = orient::HeadingPrior{-geometry::angles_of(pose.ground_from_photo).kappa_rad,
                                          *options.heading_sigma_deg * kRadPerDeg};
   }
   return photo;
+}
+
+// What is known of the place of a photo, by its number in the flight.
+std::optional<PhotoFix> fix_of(std::size_t photo, const Flight& flight, const Options& options) {
+  if (photo < flight.taken_fixes.size()) return flight.taken_fixes[photo];
+  if (!options.rtk) return std::nullopt;
+  const double h = options.rtk->sigma_horizontal_m, v = options.rtk->sigma_vertical_m;
+  return PhotoFix{Eigen::Matrix3d(Eigen::Vector3d(h * h, h * h, v * v).asDiagonal()),
+                  {0, 0, options.costs.climb_rate_m_s}};
 }
 
 int add_mark(const Eigen::Vector2d& foot, const Eigen::Vector2d& from_foot, const Options& options,
@@ -91,6 +100,9 @@ Status check_sigmas(const Options& options) {
       !(positive(options.rtk->sigma_horizontal_m) && positive(options.rtk->sigma_vertical_m))) {
     return bad("The sigmas of RTK positions must be numbers above 0.");
   }
+  if (!(options.delay_sigma_s >= 0 && std::isfinite(options.delay_sigma_s))) {
+    return bad("The sigma of the delay must be a number of seconds from 0 on.");
+  }
   if (options.heading_sigma_deg && !positive(*options.heading_sigma_deg)) {
     return bad("The sigma of the heading must be a number above 0.");
   }
@@ -106,6 +118,21 @@ Status check_sigmas(const Options& options) {
   }
   if (options.radius_m && !positive(*options.radius_m)) {
     return bad("The radius must be a number above 0, in metres.");
+  }
+  return Done{};
+}
+
+Status check_fixes(const Flight& flight) {
+  if (flight.taken_fixes.empty()) return Done{};
+  if (flight.taken_fixes.size() != flight.taken_m.size()) {
+    return bad("Each photo that was taken needs a fix of its own, or none of them has one.");
+  }
+  for (const PhotoFix& fix : flight.taken_fixes) {
+    const Eigen::LLT<Eigen::Matrix3d> factor(fix.covariance_m2);
+    if (!fix.covariance_m2.allFinite() || !fix.velocity_m_s.allFinite() ||
+        factor.info() != Eigen::Success) {
+      return bad("The covariance of each position must be a positive one, in numbers.");
+    }
   }
   return Done{};
 }
@@ -150,8 +177,11 @@ Model model_of(const Flight& flight, const Options& options, Detail detail) {
   model.truth.poses = poses_of(flight, options);
   model.points = ground_points(flight, model.truth.poses, model.rings, options, detail);
   model.problem.camera = options.camera;
+  model.problem.delay.sigma_s = options.delay_sigma_s;
   for (const auto& pose : model.truth.poses) {
-    model.problem.photos.push_back(photo_of(pose, options));
+    const auto fix = fix_of(model.problem.photos.size(), flight, options);
+    model.problem.photos.push_back(photo_of(pose, fix, options));
+    model.georeferenced = model.georeferenced || fix.has_value();
     model.problem.photos.back().name = std::to_string(model.problem.photos.size());
   }
   add_known(foot_of(flight), options, model);
@@ -178,6 +208,7 @@ Status check(const Flight& flight, const Options& options) {
     }
   }
   if (options.ties < 10) return bad("There must be 10 ties at least.");
+  if (auto status = check_fixes(flight); !status) return status;
   if (auto status = check_sigmas(options); !status) return status;
   return check_length(flight, options);
 }

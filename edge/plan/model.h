@@ -18,6 +18,7 @@ namespace plumbline::plan {
 struct Model {
   orient::Problem problem;
   orient::State truth;
+  bool georeferenced = false;  // some photo has a position
   std::vector<Ring> rings;
   // By point of the problem, the foot of the climb first. Behind them, with 1 tie each, come the
   // ends of the known length and the control points.

@@ -31,7 +31,10 @@ struct Options {
   geometry::Camera camera;  // with what is known of it
   double sigma_px = 0.2;    // of an image coordinate, of ties and of targets
   int ties = 2000;          // points seen in two photos or more, spread evenly over that ground
-  std::optional<Rtk> rtk;
+  std::optional<Rtk> rtk;   // of each position that has no PhotoFix
+  // Common to the flight: by so much the exposures are off the positions in time. Photos to come
+  // are taken to be taken while the drone climbs.
+  double delay_sigma_s = 0;
   std::optional<double> heading_sigma_deg;  // one compass, its error common to all photos
   std::optional<double> known_length_m;     // on the ground, centred on the foot
   double length_sigma_m = 0.005;
@@ -56,6 +59,10 @@ struct Options {
   std::optional<double> goal_m;
   double ceiling_m = 150;  // no change flies higher
   double floor_m = 10;     // or lower
+  // Where a drone in the air takes its photos by a plan: no change goes aside by less, or takes
+  // photos in between.
+  double least_aside_m = 0;
+  bool photos_between = true;
 
   Costs costs;
   orient::Options adjustment;  // prior on tilts, and when a quantity is called unobservable

@@ -106,7 +106,7 @@ class Reader {
   Prediction read() const {
     Prediction out;
     out.photos = static_cast<int>(model_.truth.poses.size());
-    out.georeferenced = options_.rtk.has_value();
+    out.georeferenced = model_.georeferenced;
     read_common(out);
     read_rings(out);
     return out;

@@ -36,7 +36,7 @@ struct RingSigma {
 
 struct Prediction {
   int photos = 0;
-  bool georeferenced = false;  // there is RTK: `absolute` is what counts
+  bool georeferenced = false;  // there are positions: `absolute` is what counts
   std::vector<RingSigma> rings;
   GroundSigma field;  // over all ground where ties lie
   GroundSigma foot;   // of the very foot of the climb

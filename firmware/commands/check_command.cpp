@@ -12,6 +12,7 @@
 
 #include "edge/record/sha256.h"
 #include "firmware/commands/journal_text.h"
+#include "firmware/commands/recording_state.h"
 #include "firmware/commands/run_report.h"
 #include "firmware/ingest/file_hash.h"
 #include "firmware/ingest/flight_journal.h"
@@ -35,10 +36,11 @@ struct Findings {
   int stored = 0, taken = 0, missed = 0, fixes = 0, faults = 0, starts = 0;
   double duration_s = 0;
   bool flown = false;
+  bool landed = false;                  // after that
   std::vector<std::string> not_stored;  // photos taken that never reached the disk
 };
 
-std::string trouble_with(const fs::path& flight, const record::Stored& stored) {
+std::string trouble_with_photo(const fs::path& flight, const record::Stored& stored) {
   std::error_code error;
   const fs::path path = flight / stored.name;
   if (!fs::is_regular_file(path, error)) return stored.name + " is missing.";
@@ -66,7 +68,7 @@ class Count {
   void operator()(const record::Stored& stored) {
     ++findings_.stored;
     stored_.insert(stored.number);
-    const std::string trouble = trouble_with(flight_, stored);
+    const std::string trouble = trouble_with_photo(flight_, stored);
     if (!trouble.empty()) findings_.broken_photos.push_back(trouble);
   }
   void operator()(const capture::Input& input) {
@@ -81,7 +83,10 @@ class Count {
     }
     if (std::holds_alternative<capture::PhotoMissed>(decision.what)) ++findings_.missed;
     const auto* changed = std::get_if<capture::PhaseChanged>(&decision.what);
-    if (changed != nullptr && changed->phase == capture::Phase::kFlying) findings_.flown = true;
+    if (changed == nullptr) return;
+    const bool is_flying = changed->phase == capture::Phase::kFlying;
+    if (is_flying) findings_.flown = true;
+    if (is_flying || changed->phase == capture::Phase::kLanded) findings_.landed = !is_flying;
   }
 
   void finish() {
@@ -108,23 +113,29 @@ class Count {
 };
 
 std::string state_of(const Findings& findings) {
-  const auto state = findings.journal.state;
-  if (state == record::JournalState::kDamaged || !findings.broken_photos.empty()) return "damaged";
-  return state == record::JournalState::kComplete ? "complete" : "truncated";
+  return findings.broken_photos.empty() ? name_of(findings.journal.state) : "damaged";
 }
 
 std::string sentence_of(const Findings& findings) {
-  const std::string state = state_of(findings);
-  if (state == "complete") return "The recording is complete.";
-  if (state == "truncated") {
-    return "The recording is truncated: it stops without an end, as when the power goes; " +
-           std::to_string(findings.journal.tail_bytes) +
-           " bytes of an unfinished entry follow. All before that is good.";
-  }
-  return "The recording is damaged: " + std::to_string(findings.journal.skipped_bytes) +
-         " bytes of the journal are not what was written, " +
-         std::to_string(findings.journal.lost_entries) + " entries are lost, " +
-         std::to_string(findings.broken_photos.size()) + " photos are not whole.";
+  const std::string trouble = trouble_with(findings.journal);
+  const std::size_t broken = findings.broken_photos.size();
+  if (broken == 0) return trouble.empty() ? "The recording is complete." : trouble;
+  const std::string photos =
+      broken == 1 ? "1 photo is not whole." : std::to_string(broken) + " photos are not whole.";
+  if (findings.journal.state == record::JournalState::kDamaged) return trouble + " " + photos;
+  return "The recording is damaged: " + photos + (trouble.empty() ? "" : " " + trouble);
+}
+
+// Whether the drone flew, and came down again.
+std::string flight_of(const Findings& f) {
+  if (!f.flown) return "no take-off recorded";
+  return f.landed ? "flown and landed" : "flown, and no landing recorded";
+}
+
+std::string photos_of(const Findings& f) {
+  if (f.taken == 0 && f.missed == 0 && f.stored == 0) return "No photo was taken";
+  return std::to_string(f.taken) + " photos taken, " + std::to_string(f.stored) + " stored, " +
+         std::to_string(f.missed) + " missed";
 }
 
 nlohmann::ordered_json json_of(const Findings& f) {
@@ -137,6 +148,7 @@ nlohmann::ordered_json json_of(const Findings& f) {
           {"starts", f.starts},
           {"duration_s", f.duration_s},
           {"flown", f.flown},
+          {"landed", f.landed},
           {"fixes", f.fixes},
           {"photos_taken", f.taken},
           {"photos_stored", f.stored},
@@ -151,9 +163,8 @@ void print(const Findings& f) {
   std::printf("%s\n", sentence_of(f).c_str());
   std::printf("%llu entries, %.1f s, %d fixes, %d start%s of the program, %s\n",
               static_cast<unsigned long long>(f.journal.entries), f.duration_s, f.fixes, f.starts,
-              f.starts == 1 ? "" : "s", f.flown ? "flown" : "not flown");
-  std::printf("%d photos taken, %d stored, %d missed, %d faults\n", f.taken, f.stored, f.missed,
-              f.faults);
+              f.starts == 1 ? "" : "s", flight_of(f).c_str());
+  std::printf("%s, %d faults\n", photos_of(f).c_str(), f.faults);
   for (const std::string& sentence : f.broken_photos) std::printf("%s\n", sentence.c_str());
   for (const std::string& number : f.not_stored) {
     std::printf("Photo %s was taken, and never reached the disk.\n", number.c_str());
@@ -196,6 +207,9 @@ void add_check(CLI::App& app, int& status) {
   command->add_flag("--json", arguments->json, "one object");
   command->footer(
       "Ends with status 0 only where the recording is complete and every photo whole.\n"
+      "With --dump, age_s of a photo is that of the receiver's newest position at the exposure; "
+      "below 0, that\n"
+      "position is from after the exposure, and the photo's place lies between two.\n"
       "Example: plumbline check /var/lib/plumbline/flights/0007");
   command->callback([arguments, &status] { status = run_check(*arguments); });
 }

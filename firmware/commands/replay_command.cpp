@@ -13,9 +13,11 @@
 
 #include "edge/capture/decider.h"
 #include "firmware/commands/journal_text.h"
+#include "firmware/commands/recording_state.h"
 #include "firmware/commands/run_report.h"
 #include "firmware/config/config_toml.h"
 #include "firmware/ingest/flight_journal.h"
+#include "firmware/ingest/number.h"
 
 namespace plumbline::commands {
 namespace {
@@ -30,6 +32,7 @@ struct ReplayArguments {
 };
 
 struct ReplayResult {
+  record::JournalSummary journal;
   std::uint64_t inputs = 0;
   std::uint64_t decisions = 0;           // made again
   std::uint64_t as_flown = 0;            // of those
@@ -132,6 +135,8 @@ Status write_decisions(const fs::path& folder, const ReplayResult& result) {
 }
 
 void print(const ReplayResult& result) {
+  const std::string trouble = trouble_with(result.journal);
+  if (!trouble.empty()) std::printf("%s\n", trouble.c_str());
   std::printf("%llu inputs, %llu decisions, %llu of them as flown\n",
               static_cast<unsigned long long>(result.inputs),
               static_cast<unsigned long long>(result.decisions),
@@ -155,23 +160,34 @@ int run_replay(const ReplayArguments& arguments) {
   for (const auto& entry : journal->entries) {
     if (const Status taken = replayer.take(entry); !taken) return fail(taken.error());
   }
-  const ReplayResult result = replayer.finish();
+  ReplayResult result = replayer.finish();
+  result.journal = journal->summary;
   if (!arguments.out.empty()) {
     if (const Status written = write_decisions(arguments.out, result); !written) {
       return fail(written.error());
     }
   }
   if (arguments.json) {
-    const nlohmann::ordered_json json = {{"inputs", result.inputs},
-                                         {"decisions", result.decisions},
-                                         {"as_flown", result.as_flown},
-                                         {"unrecorded", result.unrecorded},
-                                         {"differences", result.differences}};
+    const nlohmann::ordered_json json = {
+        {"state", name_of(result.journal.state)}, {"inputs", result.inputs},
+        {"decisions", result.decisions},          {"as_flown", result.as_flown},
+        {"unrecorded", result.unrecorded},        {"differences", result.differences}};
     std::printf("%s\n", json.dump(2).c_str());
   } else {
     print(result);
   }
-  return result.differences.empty() ? kGood : kWorkFailed;
+  const bool is_whole = result.journal.state == record::JournalState::kComplete;
+  return is_whole && result.differences.empty() ? kGood : kWorkFailed;
+}
+
+// Empty for a good one, else a sentence.
+std::string check_speed(const std::string& text) {
+  constexpr double kSlowest = 0.01, kFastest = 1e6;
+  const auto speed = ingest::parse_number(text);
+  if (speed && (*speed == 0 || (*speed >= kSlowest && *speed <= kFastest))) return "";
+  return "'" + text +
+         "' is no speed: give 0 (as fast as it goes), or a number from 0.01 to 1000000 (2 is twice "
+         "as fast as flown)";
 }
 
 }  // namespace
@@ -182,12 +198,15 @@ void add_replay(CLI::App& app, int& status) {
       "replay", "The daemon's own code over a recording; decisions compared with those flown.");
   command->add_option("flight", arguments->flight, "the flight's folder")->required();
   command->add_option("--speed", arguments->speed, "times as fast as flown; 0: as fast as it goes")
-      ->check(CLI::NonNegativeNumber)
+      ->check(check_speed)
       ->capture_default_str();
   command->add_option("--out", arguments->out, "folder for decisions.txt");
   command->add_flag("--json", arguments->json, "one object");
   command->footer(
-      "Ends with status 0 only where every decision is as flown, bit for bit.\n"
+      "Ends with status 0 only where the recording is complete and every decision as flown, bit "
+      "for "
+      "bit. What\n"
+      "is whole of a cut or damaged one is played all the same.\n"
       "Example: plumbline replay /var/lib/plumbline/flights/0007 --speed 0");
   command->callback([arguments, &status] { status = run_replay(*arguments); });
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "edge/jpeg/jpeg.h"
+#include "firmware/commands/sim_flown.h"
 #include "firmware/commands/sim_output.h"
 #include "firmware/ingest/text_file.h"
 #include "sim/flight.h"
@@ -35,6 +36,7 @@ struct SimOptions {
   std::vector<double> rtk_m;
   std::string fix;
   bool no_gnss = false;
+  bool fly = false;
   std::optional<double> heading_sigma_deg;
   int threads = 0;
 };
@@ -105,9 +107,13 @@ Result<SimulatedFolder> simulate(const SimOptions& options) {
   if (!profile) return profile.error();
   const auto photo = ground_photo(options.texture);
   if (!photo) return photo.error();
+  const int threads = thread_count(options.threads);
+  if (options.fly) {
+    const FlownFlight flown{*profile, options.seed, *photo, threads};
+    return write_flown_flight(flown, options.out, terminal_progress());
+  }
   const sim::Flight flight = sim::fly(*profile, options.seed);
-  return write_simulated_flight(flight, *photo, options.out, thread_count(options.threads),
-                                terminal_progress());
+  return write_simulated_flight(flight, *photo, options.out, threads, terminal_progress());
 }
 
 int run_sim(const SimOptions& options) {
@@ -121,6 +127,7 @@ int run_sim(const SimOptions& options) {
   std::printf(
       "measure them: plumbline measure %s --picks %s/truth/picks.csv --check %s/truth/check.csv\n",
       out, out, out);
+  if (options.fly) std::printf("decide again: plumbline replay %s\n", out);
   return 0;
 }
 
@@ -170,12 +177,23 @@ void add_sim(CLI::App& app, int& status) {
   sub->add_option("--texture", options->texture, "a JPEG photo to use as ground");
   add_climb_options(*sub, *options);
   add_gnss_options(*sub, *options);
+  sub->add_flag("--fly", options->fly,
+                "fly it as the daemon would: its own code decides when to take the photos, and "
+                "writes flight.journal, for replay and check")
+      ->excludes("--no-gnss")
+      ->excludes("--heading")
+      ->excludes("--side-direction");
   sub->add_option("--threads", options->threads, "0: as many as the machine has")
       ->check(CLI::Range(0, 256));
   sub->footer(
       "Example: plumbline sim climb --profile paper --side-step 10 --rtk 0.005,0.010 --seed 7\n"
       "         plumbline measure climb --picks climb/truth/picks.csv --check "
       "climb/truth/check.csv\n"
+      "         plumbline sim flown --fly --profile standard && plumbline replay flown\n"
+      "Without --fly the photos are taken where the profile says, with positions in their EXIF; "
+      "with "
+      "it, where\n"
+      "          the daemon takes them, with positions in the recording, as of a real flight.\n"
       "Profiles: paper 70 to 90 m every 5 m; standard 30 to 90 m every 5 m, then 10 m aside;\n"
       "          ice 10 to 60 m every 2.5 m, then 5 m aside. A file: sim/profile_example.toml.");
   sub->callback([options, &status] { status = run_sim(*options); });

@@ -7,14 +7,10 @@
 #include "edge/base/image.h"
 #include "edge/base/progress.h"
 #include "edge/base/result.h"
+#include "firmware/commands/sim_folder.h"
 #include "sim/flight.h"
 
 namespace plumbline::commands {
-
-struct SimulatedFolder {
-  int photos = 0;
-  int targets = 0;
-};
 
 // Flies and writes the folder: photos/0001.jpg ..., camera.toml as calibrated, and truth/ with
 // camera.toml, photos.csv, picks.csv, check.csv and surface.asc. `folder` must be absent or an

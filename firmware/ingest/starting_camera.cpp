@@ -8,6 +8,7 @@
 
 #include "firmware/ingest/sensor_table.h"
 #include "firmware/ingest/text_file.h"
+#include "firmware/ingest/usual_lens.h"
 
 namespace plumbline::ingest {
 namespace {
@@ -54,9 +55,11 @@ std::optional<Focal> by_equivalent(const PhotoRecord& photo) {
                "the 35 mm equivalent in EXIF"};
 }
 
-// Cameras of drones see 65 to 85 degrees across: 0.55 to 0.8 of the width.
 Focal guess(const PhotoRecord& photo) {
-  return {0.7 * long_side(photo), 0.30, "a guess, for EXIF says nothing of the lens"};
+  const Camera usual = usual_lens(photo.width_px, photo.height_px);
+  const double px = usual.interior[geometry::kFocalLength];
+  return {px, usual.sigma[geometry::kFocalLength] / px,
+          "a guess, for EXIF says nothing of the lens"};
 }
 
 Focal focal_of(const PhotoRecord& photo) {
@@ -66,26 +69,6 @@ Focal focal_of(const PhotoRecord& photo) {
   Focal focal = found.value_or(guess(photo));
   focal.px *= photo.digital_zoom;
   return focal;
-}
-
-// What is usual for lenses that are not metric (J. G. Fryer 1996, "Camera calibration", in Close
-// Range Photogrammetry and Machine Vision; T. Luhmann et al. 2016, ISPRS J. 115, 37-46).
-void set_sigmas(Camera& camera, double focal_sigma) {
-  const double long_px = std::max(camera.width_px, camera.height_px);
-  camera.sigma[geometry::kFocalLength] = focal_sigma * camera.interior[geometry::kFocalLength];
-  // Sensor and lens are centred to 1 to 2 % of the side, tens of pixels.
-  camera.sigma[geometry::kPrincipalU] = camera.sigma[geometry::kPrincipalV] = 0.015 * long_px;
-  // Pixels are square and rows are straight to the lithography of the chip; what is left here is
-  // the tilt and the shift of the optics.
-  camera.sigma[geometry::kAffinity] = 5e-4;
-  camera.sigma[geometry::kSkew] = 5e-4;
-  // Barrel of a few per cent at the corner; what drones correct in the camera is less.
-  camera.sigma[geometry::kRadial1] = 0.1;
-  camera.sigma[geometry::kRadial2] = 0.1;
-  // Not told from k2 by a few photos of flat ground.
-  camera.sigma[geometry::kRadial3] = 0;
-  // Decentring is a tenth to a hundredth of the radial part; retracting lenses show most.
-  camera.sigma[geometry::kTangential1] = camera.sigma[geometry::kTangential2] = 3e-3;
 }
 
 std::string sentence_of(const Focal& focal) {
@@ -129,14 +112,8 @@ Result<StartingCamera> starting_camera(const std::vector<PhotoRecord>& photos) {
   const Focal focal = focal_of(photo);
   StartingCamera result;
   result.source = sentence_of(focal);
-  Camera& camera = result.camera;
-  camera.name = photo.model.empty() ? "unknown camera" : photo.model;
-  camera.width_px = photo.width_px;
-  camera.height_px = photo.height_px;
-  camera.interior[geometry::kFocalLength] = focal.px;
-  camera.interior[geometry::kPrincipalU] = 0.5 * (photo.width_px - 1);
-  camera.interior[geometry::kPrincipalV] = 0.5 * (photo.height_px - 1);
-  set_sigmas(camera, focal.sigma);
+  result.camera = usual_lens(photo.width_px, photo.height_px, focal.px, focal.sigma);
+  result.camera.name = photo.model.empty() ? "unknown camera" : photo.model;
   warn_of_zoom(photos, result.warnings);
   return result;
 }

@@ -1,54 +1,100 @@
 // SPDX-License-Identifier: MIT
 #include "firmware/service/adviser.h"
 
-#include <cmath>
-#include <cstdio>
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "edge/plan/model.h"
+#include "firmware/ingest/camera_toml.h"
+#include "firmware/ingest/usual_lens.h"
+#include "firmware/service/disk_space.h"
 
 namespace plumbline::service {
 namespace {
 
-std::string centimetres(const std::optional<double>& sigma_m) {
-  if (!sigma_m || !std::isfinite(*sigma_m)) return "unknown";
-  char text[32];
-  if (*sigma_m < 1) {
-    std::snprintf(text, sizeof text, "%.1f cm", 100 * *sigma_m);
-  } else {
-    std::snprintf(text, sizeof text, "%.1f m", *sigma_m);
-  }
-  return text;
+// Without a calibration, as `plumbline measure` begins where EXIF says nothing.
+geometry::Camera usual_camera(const CameraOptions& options) {
+  const PhotoSize size = photo_size(options);
+  return ingest::usual_lens(size.width_px, size.height_px);
 }
 
-bool azimuth_unknown(const plan::Summary& summary) {
-  for (const auto& quantity : summary.flight.unobservable) {
-    if (quantity.name == "azimuth") return true;
+// The daemon takes photos at the heights of its plan, and so far aside as that says. By time it
+// takes them everywhere.
+void keep_to(const capture::CapturePlan& capture, plan::Options& options) {
+  options.least_aside_m = capture.aside_m.value_or(std::numeric_limits<double>::infinity());
+  options.photos_between = false;
+  if (capture.heights_m.empty() || capture.every) return;
+  options.ceiling_m = capture.heights_m.back();
+  options.floor_m = capture.heights_m.front();
+}
+
+double middle_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Of a photo to come: what the positions were so far, as a rule.
+std::optional<plan::Rtk> usual_fix(const std::vector<plan::PhotoFix>& fixes) {
+  if (fixes.empty()) return std::nullopt;
+  std::vector<double> horizontal_m, vertical_m;
+  for (const plan::PhotoFix& fix : fixes) {
+    const Eigen::Vector3d m2 = fix.covariance_m2.diagonal();
+    horizontal_m.push_back(std::sqrt(0.5 * (m2.x() + m2.y())));
+    vertical_m.push_back(std::sqrt(m2.z()));
   }
-  return false;
+  return plan::Rtk{middle_of(std::move(horizontal_m)), middle_of(std::move(vertical_m))};
+}
+
+bool ends_at_top(const std::vector<double>& to_come_m) {
+  return to_come_m.empty() ||
+         to_come_m.back() >= *std::max_element(to_come_m.begin(), to_come_m.end());
 }
 
 }  // namespace
 
-Advice advice_of(const plan::Summary& summary) {
-  const std::string height = "Height " + centimetres(summary.worst.height_m);
-  const std::string azimuth = azimuth_unknown(summary) ? ", azimuth unknown" : "";
-  if (summary.goal_reached.value_or(false))
-    return {height + azimuth + ": good, land.", height + ": good, land"};
-  Advice advice{height + ", plan " + centimetres(summary.worst.plan_m) + azimuth, height + azimuth};
-  const auto wanted = summary.cheapest ? summary.cheapest : summary.best;
-  if (wanted) {
-    const plan::Change& change = summary.advice[static_cast<std::size_t>(*wanted)].change;
-    advice.sentence += ": " + change.what;
-    if (change.aside_m > 0) {
-      char text[32];
-      std::snprintf(text, sizeof text, ": go %.0f m aside", change.aside_m);
-      advice.short_text += text;
-    }
+Result<AdviserOptions> adviser_options(const config::Config& config) {
+  AdviserOptions options;
+  options.capture = config.capture.plan;
+  options.plan.goal_m = config.advice.goal_m;
+  if (config.receiver.pps.empty()) {
+    options.latency_sigma_s =
+        std::chrono::duration<double>(config.capture.receiver_latency.sigma).count();
   }
-  advice.sentence += ".";
-  return advice;
+  keep_to(options.capture, options.plan);
+  if (config.camera.calibration.empty()) {
+    options.plan.camera = usual_camera(config.camera.options);
+    return options;
+  }
+  auto file = ingest::read_camera_toml(config.camera.calibration);
+  if (!file) return file.error();
+  options.plan.camera = std::move(file->camera);
+  return options;
 }
 
-Adviser::Adviser(const plan::Options& options, Sink sink)
-    : options_(options), sink_(std::move(sink)), thread_([this] { run(); }) {}
+std::optional<Advice> advise(const std::vector<FlownPhoto>& photos, const AdviserOptions& options) {
+  if (photos.size() < 2) return std::nullopt;
+  const std::vector<double> to_come_m = heights_to_come(options.capture, photos);
+  const plan::Flight flight = flight_of(photos, to_come_m, options.latency_sigma_s);
+  plan::Options asked = options.plan;
+  asked.rtk = usual_fix(flight.taken_fixes);
+  asked.delay_sigma_s = asked.rtk ? options.latency_sigma_s : 0;
+  auto summary = plan::plan(flight, asked);
+  if (!summary) return std::nullopt;
+  Outlook outlook{std::move(*summary), std::nullopt, ends_at_top(to_come_m),
+                  static_cast<int>(photos.size()), photos_without_fix(photos)};
+  if (!to_come_m.empty()) {
+    plan::Flight taken = flight;
+    taken.ahead_m.clear();
+    const auto now = plan::predict(taken, asked, plan::Detail::kAll);
+    outlook.now = now ? *now : plan::Prediction{};
+  }
+  return advice_of(outlook);
+}
+
+Adviser::Adviser(AdviserOptions options, Sink sink)
+    : options_(std::move(options)), sink_(std::move(sink)), thread_([this] { run(); }) {}
 
 Adviser::~Adviser() {
   {
@@ -59,40 +105,44 @@ Adviser::~Adviser() {
   thread_.join();
 }
 
-void Adviser::decided(const capture::Decision& decision) {
+void Adviser::remember(std::vector<FlownPhoto> photos) {
+  const std::lock_guard lock(mutex_);
+  earlier_ = std::move(photos);
+}
+
+void Adviser::decided(const capture::Decision& decision,
+                      const std::optional<geodesy::LocalFrame>& frame) {
   const std::lock_guard lock(mutex_);
   if (const auto* phase = std::get_if<capture::PhaseChanged>(&decision.what)) {
-    if (phase->phase == capture::Phase::kFlying) taken_m_.clear();
+    if (phase->phase == capture::Phase::kFlying) photos_ = std::exchange(earlier_, {});
+    if (phase->phase == capture::Phase::kLanded) earlier_.clear();
     return;
   }
   const auto* taken = std::get_if<capture::PhotoTaken>(&decision.what);
-  if (taken == nullptr || !taken->place) return;
-  taken_m_.emplace_back(taken->place->in_enu_m.x(), taken->place->in_enu_m.y(),
-                        taken->place->height_m);
-  fixed_ = taken->place->quality == FixQuality::kFixed;
+  if (taken == nullptr) return;
+  auto photo = flown_photo(*taken, frame);
+  if (!photo) return;
+  photos_.push_back(std::move(*photo));
   asked_ = true;
   changed_.notify_one();
 }
 
 void Adviser::run() {
   for (;;) {
-    plan::Flight flight;
-    plan::Options options = options_;
+    std::vector<FlownPhoto> photos;
     {
       std::unique_lock lock(mutex_);
       changed_.wait(lock, [this] { return asked_ || stopping_; });
       if (stopping_) return;
       asked_ = false;
-      flight.taken_m = taken_m_;
-      if (fixed_) options.rtk = plan::Rtk{};
+      photos = photos_;
     }
-    if (flight.taken_m.size() < 2) continue;
-    const auto summary = plan::plan(flight, options);
+    const auto advice = advise(photos, options_);
     {
       const std::lock_guard lock(mutex_);
       if (asked_) continue;  // another photo has come meanwhile
     }
-    if (summary) sink_(advice_of(*summary));
+    if (advice) sink_(*advice);
   }
 }
 

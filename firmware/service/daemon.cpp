@@ -5,7 +5,6 @@
 #include <fstream>
 #include <utility>
 
-#include "firmware/ingest/camera_toml.h"
 #include "firmware/ingest/text_file.h"
 #include "firmware/service/disk_space.h"
 
@@ -18,24 +17,6 @@ std::string boot_id() {
   std::string id;
   std::getline(file, id);
   return id;
-}
-
-// Without a calibration: a usual lens, known to a twentieth.
-geometry::Camera usual_camera(const CameraOptions& options) {
-  geometry::Camera camera;
-  const PhotoSize size = photo_size(options);
-  camera.width_px = size.width_px;
-  camera.height_px = size.height_px;
-  auto& f = camera.interior[geometry::kFocalLength];
-  f = 0.8 * camera.width_px;
-  return camera;
-}
-
-Result<geometry::Camera> camera_of(const config::Config& config) {
-  if (config.camera.calibration.empty()) return usual_camera(config.camera.options);
-  auto file = ingest::read_camera_toml(config.camera.calibration);
-  if (!file) return file.error();
-  return file->camera;
 }
 
 }  // namespace
@@ -66,13 +47,13 @@ Result<std::unique_ptr<Daemon>> Daemon::start(const config::Config& config, cons
                                               flight::Devices devices, DaemonEvents own) {
   auto instance = SingleInstance::in(config.recording.folder);
   if (!instance) return instance.error();
-  const auto camera = camera_of(config);
-  if (!camera) return camera.error();
+  auto advice = adviser_options(config);
+  if (!advice) return advice.error();
   std::unique_ptr<Daemon> daemon(new Daemon(config, devices, std::move(*instance), std::move(own)));
   auto server = StatusServer::start(daemon->board_, config.status.socket, config.status.file);
   if (!server) return server.error();
   daemon->server_ = std::move(*server);
-  if (config.advice.enabled) daemon->advise(*camera);
+  if (config.advice.enabled) daemon->advise(std::move(*advice));
   if (config.measure.enabled) daemon->measure();
   auto options = session_options(config, text);
   if (!config.camera.calibration.empty()) {
@@ -82,20 +63,24 @@ Result<std::unique_ptr<Daemon>> Daemon::start(const config::Config& config, cons
   }
   daemon->session_ = std::make_unique<flight::Session>(options, devices, daemon->events());
   if (const Status started = daemon->session_->start(); !started) return started.error();
+  if (daemon->adviser_) daemon->remember();
   daemon->make_room();
   daemon->look_at_space();
   return daemon;
 }
 
-void Daemon::advise(const geometry::Camera& camera) {
-  plan::Options options;
-  options.camera = camera;
-  options.goal_m = config_.advice.goal_m;
-  adviser_ = std::make_unique<Adviser>(options, [this](const Advice& advice) {
+void Daemon::advise(AdviserOptions options) {
+  adviser_ = std::make_unique<Adviser>(std::move(options), [this](const Advice& advice) {
     board_.advised(advice.sentence);
     tell(advice.sentence);
     if (devices_.pilot != nullptr) devices_.pilot->say(PilotSeverity::kInfo, advice.short_text);
   });
+}
+
+// What was photographed before the program was started anew in the air.
+void Daemon::remember() {
+  adviser_->remember(
+      photos_before(devices_.storage, session_->recorder().folder(), config_.capture));
 }
 
 void Daemon::measure() {
@@ -148,7 +133,7 @@ flight::SessionEvents Daemon::events() {
     board_.decided(decision);
     tell(decision);
     own_.decided(decision);
-    if (adviser_) adviser_->decided(decision);
+    if (adviser_) adviser_->decided(decision, session_->loop().decider().navigator().frame());
   };
   events.said = [this](const record::Message& message) {
     board_.said(message);

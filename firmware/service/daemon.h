@@ -8,7 +8,6 @@
 #include <string>
 
 #include "edge/base/result.h"
-#include "edge/geometry/camera.h"
 #include "firmware/config/config.h"
 #include "firmware/flight/session.h"
 #include "firmware/service/adviser.h"
@@ -47,7 +46,8 @@ class Daemon {
   Daemon(const config::Config& config, flight::Devices devices, SingleInstance instance,
          DaemonEvents own);
 
-  void advise(const geometry::Camera& camera);
+  void advise(AdviserOptions options);
+  void remember();
   void measure();
   flight::SessionEvents events();
   void tell(const std::string& sentence);

@@ -3,6 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <utility>
+
 #include "edge/base/index.h"
 #include "tests/edge/plan/paper_camera.h"
 
@@ -118,6 +121,49 @@ TEST(Plan, PlansOnFromThePhotosAlreadyTaken) {
   EXPECT_NEAR(*planned(ahead, options).worst.height_m, before, 1e-9);
 }
 
+// A position that says of itself what the options say of all is no other.
+TEST(Plan, TakesTheFixOfEachPhotoInPlaceOfTheUsualOne) {
+  Options options = paper_options(0.2);
+  options.radius_m = 30;
+  Flight flight = flight_of({70, 90, 5, {10}});
+  flight.taken_m = std::exchange(flight.ahead_m, {});
+  const Sigma usual = planned(flight, options).worst;
+  options.rtk.reset();
+  flight.taken_fixes.assign(flight.taken_m.size(), PhotoFix{});
+  for (PhotoFix& fix : flight.taken_fixes) {
+    fix.covariance_m2 = Eigen::Vector3d(25e-6, 25e-6, 1e-4).asDiagonal();
+  }
+  const Summary own = planned(flight, options);
+  EXPECT_TRUE(own.flight.georeferenced);
+  EXPECT_NEAR(*own.worst.plan_m, *usual.plan_m, 1e-9);
+  EXPECT_NEAR(*own.worst.height_m, *usual.height_m, 1e-9);
+  for (PhotoFix& fix : flight.taken_fixes) fix.covariance_m2 *= 100;
+  EXPECT_GT(*planned(flight, options).worst.height_m, 3 * *usual.height_m);
+}
+
+// All photos are off by velocity times delay: of a climb, in height.
+TEST(Plan, LetsADelayMoveAllPhotosOfAClimbAlike) {
+  Options options = paper_options(0.2);
+  options.radius_m = 30;
+  const Flight flight = flight_of({70, 90, 5, {}});
+  const double without_m = *planned(flight, options).worst.height_m;
+  options.delay_sigma_s = 0.03;
+  const double with_m = *planned(flight, options).worst.height_m;
+  const double delay_m = 0.03 * options.costs.climb_rate_m_s;
+  EXPECT_NEAR(with_m, std::hypot(without_m, delay_m), 0.02 * with_m);
+}
+
+TEST(Plan, KeepsChangesToWhatADroneInTheAirWouldPhotograph) {
+  Options options = paper_options(0.2);
+  options.ceiling_m = 90;
+  options.floor_m = 70;
+  options.least_aside_m = 10;
+  options.photos_between = false;
+  for (const Change& change : single_changes(flight_of({70, 90, 5, {}}), options)) {
+    EXPECT_TRUE(change.photos_m.empty() || change.aside_m >= 10) << change.what;
+  }
+}
+
 TEST(Plan, IsTheSameBitsTwice) {
   Options options = paper_options(0.2);
   options.goal_m = 0.05;
@@ -137,6 +183,16 @@ TEST(Plan, RefusesNonsenseInOneSentence) {
   options.known_length_m = 1000;
   EXPECT_FALSE(plan(flight_of({70, 90, 5, {}}), options));
   EXPECT_FALSE(plan(Flight{}, paper_options(0.2)));
+  options = paper_options(0.2);
+  options.delay_sigma_s = -1;
+  EXPECT_FALSE(plan(flight_of({70, 90, 5, {}}), options));
+  Flight flight = flight_of({70, 90, 5, {}});
+  flight.taken_m = std::exchange(flight.ahead_m, {});
+  flight.taken_fixes.resize(1);
+  EXPECT_FALSE(plan(flight, paper_options(0.2))) << "one fix for five photos";
+  flight.taken_fixes.resize(5);
+  flight.taken_fixes[2].covariance_m2(0, 0) = -1;
+  EXPECT_FALSE(plan(flight, paper_options(0.2)));
   EXPECT_FALSE(check(Climb{90, 70, 5, {}}));
   EXPECT_FALSE(check(Climb{70, 90, 0, {}}));
 }

@@ -140,10 +140,61 @@ TEST_F(FlightCommand, ReplayDecidesAsFlown) {
   EXPECT_TRUE(json["differences"].empty());
 }
 
+// What is whole is played, and all of it as flown; that it is not all there is said, as check does.
 TEST_F(FlightCommand, ReplayGoesUpToTheLastWholeEntryOfACutRecording) {
   const std::string whole = journal();
   write_journal(whole.substr(0, whole.size() * 2 / 3 + 1));
-  EXPECT_EQ(run({"replay", flight().string()}), 0) << printed;
+  EXPECT_EQ(run({"replay", flight().string()}), 1);
+  EXPECT_THAT(printed, StartsWith("The recording is truncated: "));
+  EXPECT_EQ(run({"replay", flight().string(), "--json"}), 1);
+  const auto json = nlohmann::json::parse(printed);
+  EXPECT_EQ(json["state"], "truncated");
+  EXPECT_GT(json["as_flown"], 0);
+  EXPECT_TRUE(json["differences"].empty()) << printed;
+}
+
+TEST_F(FlightCommand, ReplaySaysThatARecordingIsDamaged) {
+  std::string bent = journal();
+  bent[bent.size() / 2] = static_cast<char>(bent[bent.size() / 2] ^ 1);
+  write_journal(bent);
+  EXPECT_EQ(run({"replay", flight().string()}), 1);
+  EXPECT_THAT(printed, StartsWith("The recording is damaged: "));
+  EXPECT_THAT(printed, HasSubstr(" inputs, "));
+}
+
+TEST_F(FlightCommand, SaysThatAnEmptyJournalHoldsNothing) {
+  write_journal("");
+  for (const char* command : {"check", "replay"}) {
+    EXPECT_EQ(run({command, flight().string()}), 1);
+    EXPECT_THAT(printed, StartsWith("The recording is truncated: its journal holds nothing"));
+  }
+}
+
+TEST_F(FlightCommand, ReplayRefusesASpeedThatIsNone) {
+  for (const char* speed : {"-1", "x", "nan", "inf", "1e-300"}) {
+    EXPECT_EQ(run({"replay", flight().string(), "--speed", speed}), 2) << speed;
+  }
+  EXPECT_EQ(run({"replay", flight().string(), "--speed", "1000"}), 0);
+}
+
+TEST_F(FlightCommand, CheckSaysWhetherTheDroneLanded) {
+  EXPECT_EQ(run({"check", flight().string()}), 0);
+  EXPECT_THAT(printed, HasSubstr("1 start of the program, flown and landed\n"));
+  const std::string whole = journal();
+  write_journal(whole.substr(0, whole.size() * 2 / 3 + 1));
+  EXPECT_EQ(run({"check", flight().string()}), 1);
+  EXPECT_THAT(printed, HasSubstr(", flown, and no landing recorded\n"));
+  write_journal(whole.substr(0, whole.size() / 50));
+  EXPECT_EQ(run({"check", flight().string(), "--json"}), 1);
+  EXPECT_EQ(nlohmann::json::parse(printed)["landed"], false);
+}
+
+TEST_F(FlightCommand, CheckSaysThatNoPhotoWasTaken) {
+  const std::string whole = journal();
+  write_journal(whole.substr(0, whole.size() / 50));
+  fs::remove_all(flight() / "photos");
+  EXPECT_EQ(run({"check", flight().string()}), 1);
+  EXPECT_THAT(printed, HasSubstr(", no take-off recorded\nNo photo was taken, 0 faults\n"));
 }
 
 TEST_F(FlightCommand, ReplayWritesWhatItDecides) {

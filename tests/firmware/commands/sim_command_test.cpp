@@ -83,6 +83,37 @@ TEST_F(SimCommand, GivesTheSameBytesForTheSameSeedWithOneThreadOrTwo) {
   EXPECT_EQ(files, 8);
 }
 
+TEST_F(SimCommand, FliesTheSameBytesForTheSameSeedWithOneThreadOrTwo) {
+  ASSERT_EQ(run_small(folder / "a", {"--fly", "--seed", "9", "--threads", "1"}), 0) << told;
+  ASSERT_EQ(run_small(folder / "b", {"--fly", "--seed", "9", "--threads", "2"}), 0) << told;
+  ASSERT_EQ(run_small(folder / "c", {"--fly", "--seed", "10"}), 0) << told;
+  int files = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(folder / "a")) {
+    if (!entry.is_regular_file()) continue;
+    const fs::path name = fs::relative(entry.path(), folder / "a");
+    EXPECT_EQ(text_of(entry.path()), text_of(folder / "b" / name)) << name;
+    ++files;
+  }
+  EXPECT_EQ(files, 9);  // two photos, camera and truth, and the journal
+  EXPECT_NE(text_of(folder / "a/flight.journal"), text_of(folder / "c/flight.journal"));
+}
+
+TEST_F(SimCommand, WritesNoRecordingWhereItDoesNotFly) {
+  ASSERT_EQ(run_small(folder / "out"), 0) << told;
+  EXPECT_FALSE(fs::exists(folder / "out/flight.journal"));
+}
+
+TEST_F(SimCommand, RefusesToFlyWhatADaemonCannot) {
+  EXPECT_EQ(run_small(folder / "out", {"--fly", "--no-gnss"}), 2);
+  EXPECT_EQ(run_small(folder / "out", {"--fly", "--heading"}), 2);
+  EXPECT_EQ(run_small(folder / "out", {"--fly", "--side-direction", "10"}), 2);
+  EXPECT_EQ(run_small(folder / "out", {"--fly", "--fix", "float"}), 1);
+  EXPECT_THAT(told, HasSubstr("the receiver has a fixed solution"));
+  EXPECT_EQ(run_small(folder / "out", {"--fly", "--side-step", "2,2"}), 1);
+  EXPECT_THAT(told, HasSubstr("goes aside once"));
+  EXPECT_FALSE(fs::exists(folder / "out"));
+}
+
 TEST_F(SimCommand, DoesNotTouchAFolderThatHoldsFiles) {
   fs::create_directories(folder / "mine");
   std::ofstream(folder / "mine/notes.txt") << "keep";
