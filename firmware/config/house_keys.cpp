@@ -52,9 +52,13 @@ std::vector<Key> measure_keys() {
 
 std::vector<Key> status_keys() {
   return {
-      text({"status", "file", "What plumbline status reads: JSON, replaced as a whole."}, kPath,
-           is_absolute_path, PLUMBLINE_FIELD(status.file)),
-      text({"status", "socket", "Live messages, one JSON object a line, on a local socket."},
+      text({"status", "file",
+            "For other programs: JSON, replaced as a whole at each change and every second, with "
+            "time and pid. After a clean stop its phase is \"stopped\"; where time is older than "
+            "a few seconds, the daemon was killed."},
+           kPath, is_absolute_path, PLUMBLINE_FIELD(status.file)),
+      text({"status", "socket",
+            "What plumbline status reads: the same JSON, an object a line, on a local socket."},
            "a path of at most 107 bytes that begins with /", is_socket_path,
            PLUMBLINE_FIELD(status.socket)),
   };

@@ -55,10 +55,14 @@ Daemon::Daemon(const config::Config& config, flight::Devices devices, SingleInst
       devices_(devices),
       instance_(std::move(instance)),
       own_(std::move(own)),
-      board_(config.capture.release.release == capture::Release::kNearestFrame) {}
+      board_(config.capture.release.release == capture::Release::kNearestFrame,
+             config.capture.take_off) {}
 
 Daemon::~Daemon() {
   session_.reset();  // its events reach the others
+  measurer_.reset();
+  adviser_.reset();
+  board_.stopped();
 }
 
 Result<std::unique_ptr<Daemon>> Daemon::start(const config::Config& config, const std::string& text,
@@ -68,7 +72,12 @@ Result<std::unique_ptr<Daemon>> Daemon::start(const config::Config& config, cons
   const auto camera = camera_of(config);
   if (!camera) return camera.error();
   std::unique_ptr<Daemon> daemon(new Daemon(config, devices, std::move(*instance), std::move(own)));
-  auto server = StatusServer::start(daemon->board_, config.status.socket, config.status.file);
+  auto server =
+      StatusServer::start(daemon->board_, config.status.socket, config.status.file,
+                          [daemon = daemon.get()](bool good, const std::string& sentence) {
+                            daemon->say(good ? record::Severity::kInfo : record::Severity::kWarning,
+                                        "status", sentence);
+                          });
   if (!server) return server.error();
   daemon->server_ = std::move(*server);
   if (config.advice.enabled) daemon->advise(*camera);
@@ -118,6 +127,12 @@ void Daemon::measure() {
     devices_.pilot->say(PilotSeverity::kInfo, for_the_pilot(*measured.figures));
   };
   measurer_ = std::make_unique<Measurer>(options, Measurer::Events{show_result, show});
+}
+
+void Daemon::say(record::Severity severity, const std::string& source,
+                 const std::string& sentence) {
+  board_.said({devices_.clock.now(), severity, source, sentence});
+  tell(source + ": " + sentence);
 }
 
 void Daemon::tell(const std::string& sentence) {

@@ -41,6 +41,8 @@ class Daemon {
 
   // A camera that was found later.
   void hear(flight::DeviceEvent event) { session_->hear(std::move(event)); }
+  // For log and status, not for the flight's recording: what no device says of itself. Any thread.
+  void say(record::Severity severity, const std::string& source, const std::string& sentence);
   const StatusBoard& board() const { return board_; }
 
  private:

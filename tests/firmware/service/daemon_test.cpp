@@ -7,6 +7,8 @@
 
 #include <chrono>
 #include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
 #include <vector>
@@ -90,11 +92,13 @@ class DaemonOnBoard : public testing::Test {
     thread_ = std::thread([this] { daemon_->run(); });
   }
 
-  ~DaemonOnBoard() override {
+  void end() {
     if (!daemon_) return;
     daemon_->stop();
     thread_.join();
+    daemon_.reset();
   }
+  ~DaemonOnBoard() override { end(); }
 
   ingest::TemporaryFolder folder_;
   config::Config config_;
@@ -126,6 +130,18 @@ TEST_F(DaemonOnBoard, SaysNothingOfADiskWithRoom) {
   EXPECT_THAT(screen_.texts_until("Disk", 15), Not(Contains(HasSubstr("Disk"))));
   screen_.say_heartbeat(true);
   EXPECT_THAT(screen_.texts_until("Disk", 15), Not(Contains(HasSubstr("Disk"))));
+}
+
+nlohmann::json status_in(const std::filesystem::path& file) {
+  return nlohmann::json::parse(std::ifstream(file), nullptr, false);
+}
+
+TEST_F(DaemonOnBoard, LeavesAStatusThatClaimsNothingMore) {
+  start();
+  EXPECT_EQ(status_in(config_.status.file)["phase"], "waiting");
+  end();
+  EXPECT_EQ(status_in(config_.status.file)["phase"], "stopped");
+  EXPECT_FALSE(std::filesystem::exists(config_.status.socket));
 }
 
 }  // namespace
