@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "firmware/service/daemon.h"
 
+#include <chrono>
 #include <fstream>
 #include <utility>
 
@@ -10,6 +11,8 @@
 
 namespace plumbline::service {
 namespace {
+
+constexpr std::chrono::seconds kLookAtDiskEvery{10};
 
 // Tells this boot of the machine from others: host times compare within one.
 std::string boot_id() {
@@ -90,7 +93,6 @@ Result<std::unique_ptr<Daemon>> Daemon::start(const config::Config& config, cons
   }
   daemon->session_ = std::make_unique<flight::Session>(options, devices, daemon->events());
   if (const Status started = daemon->session_->start(); !started) return started.error();
-  daemon->make_room();
   daemon->look_at_space();
   return daemon;
 }
@@ -152,6 +154,9 @@ flight::SessionEvents Daemon::events() {
   flight::SessionEvents events;
   events.heard = [this](const capture::Input& input) { heard(input); };
   events.decided = [this](const capture::Decision& decision) {
+    if (const auto* phase = std::get_if<capture::PhaseChanged>(&decision.what)) {
+      flying_ = phase->phase == capture::Phase::kFlying;
+    }
     board_.decided(decision);
     tell(decision);
     own_.decided(decision);
@@ -169,21 +174,27 @@ flight::SessionEvents Daemon::events() {
   events.ended = [this](const std::string& folder) {
     board_.ended(folder);
     own_.ended(folder);
-    make_room();
-    look_at_space();
+    lack_is_told_ = false;
+    if (!flying_) look_at_space();
     if (measurer_) measurer_->ended(folder);
   };
   return events;
 }
 
+// In flight this thread leaves the disk alone.
 void Daemon::heard(const capture::Input& input) {
   board_.heard(input);
+  bool is_due = !looked_ || input.now >= *looked_ + kLookAtDiskEvery;
   if (const auto* frame = std::get_if<capture::FrameSeen>(&input.what)) {
     const bool tells = frame->rows > 1;  // else the camera keeps its pictures
-    if (tells && std::exchange(rows_seen_, frame->rows) != frame->rows) look_at_space();
+    if (tells && std::exchange(rows_seen_, frame->rows) != frame->rows) is_due = true;
   } else if (std::holds_alternative<capture::PilotSeen>(input.what)) {
-    look_at_space();  // an autopilot that was not there before, or is armed now
+    is_due = true;  // an autopilot that was not there before, or is armed now
+    lack_is_told_ = false;
   }
+  if (!is_due || flying_) return;
+  looked_ = input.now;
+  look_at_space();
 }
 
 Daemon::Space Daemon::space() const {
@@ -199,13 +210,20 @@ void Daemon::make_room() {
 }
 
 void Daemon::look_at_space() {
-  const Space found = space();
+  Space found = space();
+  if (!found.is_enough() && !lack_is_told_) {
+    make_room();
+    found = space();
+  }
   if (!found.photos) return;
   board_.space(*found.photos, found.planned);
-  if (found.is_enough() || devices_.pilot == nullptr) return;
-  devices_.pilot->say(PilotSeverity::kWarning, "Disk: room for " + std::to_string(*found.photos) +
-                                                   " of " + std::to_string(found.planned) +
-                                                   " photos");
+  const bool lacks = !found.is_enough();
+  if (std::exchange(lack_is_told_, lacks) == lacks) return;
+  const std::string room =
+      std::to_string(*found.photos) + " of " + std::to_string(found.planned) + " photos";
+  tell("disk: There is room for " + room + (lacks ? "." : " again."));
+  if (!lacks || devices_.pilot == nullptr) return;
+  devices_.pilot->say(PilotSeverity::kWarning, "Disk: room for " + room);
 }
 
 void Daemon::run() {

@@ -72,6 +72,9 @@ class Daemon {
   std::mutex told_mutex_;
   StatusBoard board_;
   std::optional<int> rows_seen_;  // of the camera's frames
+  bool flying_ = false;
+  std::optional<HostTime> looked_;  // at the disk
+  bool lack_is_told_ = false;       // of room on it
   std::unique_ptr<StatusServer> server_;
   std::unique_ptr<Measurer> measurer_;
   std::unique_ptr<Adviser> adviser_;

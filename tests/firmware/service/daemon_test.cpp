@@ -5,9 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
@@ -66,6 +68,62 @@ class Screen {
   int sender_system_ = 0;
 };
 
+// A disk of which somebody else takes the room, and a clock that is ahead.
+class FillingDisk : public Storage {
+ public:
+  explicit FillingDisk(std::unique_ptr<Storage> real) : real_(std::move(real)) {}
+  void set_free(std::uint64_t bytes) { free_ = bytes; }
+  int looks() const { return looks_; }
+
+  Result<std::unique_ptr<WritableFile>> create(const std::string& path) override {
+    return real_->create(path);
+  }
+  Result<std::unique_ptr<WritableFile>> append_to(const std::string& path) override {
+    return real_->append_to(path);
+  }
+  Result<std::string> read(const std::string& path) override { return real_->read(path); }
+  Status truncate(const std::string& path, std::uint64_t length) override {
+    return real_->truncate(path, length);
+  }
+  Status rename(const std::string& from, const std::string& to) override {
+    return real_->rename(from, to);
+  }
+  Status remove(const std::string& path) override { return real_->remove(path); }
+  Status make_folder(const std::string& path) override { return real_->make_folder(path); }
+  Status sync_folder(const std::string& path) override { return real_->sync_folder(path); }
+  Result<std::vector<std::string>> list(const std::string& folder) override {
+    return real_->list(folder);
+  }
+  Result<std::uint64_t> free_bytes() override {
+    ++looks_;
+    return free_.load();
+  }
+
+ private:
+  std::unique_ptr<Storage> real_;
+  std::atomic<std::uint64_t> free_ = 1'000'000'000'000;
+  std::atomic<int> looks_ = 0;
+};
+
+class ClockAhead : public Clock {
+ public:
+  explicit ClockAhead(std::unique_ptr<Clock> real) : real_(std::move(real)) {}
+  void skip(std::chrono::nanoseconds time) { ahead_ = ahead_.load() + time; }
+  HostTime now() const override { return real_->now() + ahead_.load(); }
+  WallReading wall() const override {
+    WallReading reading = real_->wall();
+    reading.host += ahead_.load();
+    return reading;
+  }
+  bool wait(Signal& signal, HostTime deadline) override {
+    return real_->wait(signal, deadline == HostTime::max() ? deadline : deadline - ahead_.load());
+  }
+
+ private:
+  std::unique_ptr<Clock> real_;
+  std::atomic<std::chrono::nanoseconds> ahead_ = 0ns;
+};
+
 class DaemonOnBoard : public testing::Test {
  protected:
   DaemonOnBoard() {
@@ -78,15 +136,20 @@ class DaemonOnBoard : public testing::Test {
   }
 
   void start() {
-    clock_ = make_clock();
-    storage_ = open_folder(config_.recording.folder).value();
+    clock_ = std::make_unique<ClockAhead>(make_clock());
+    storage_ = std::make_unique<FillingDisk>(open_folder(config_.recording.folder).value());
     receiver_ = make_receiver(folder_ / "no-receiver", *clock_).value();
     pilot_ =
         make_pilot_link("udp://127.0.0.1:" + std::to_string(screen_.port()), kOwnSystem, *clock_)
             .value();
     flight::Devices devices{*clock_, *storage_, *receiver_};
     devices.pilot = pilot_.get();
-    auto daemon = Daemon::start(config_, "", devices);
+    DaemonEvents events;
+    events.told = [this](const std::string& sentence) {
+      const std::lock_guard lock(mutex_);
+      told_ += sentence + '\n';
+    };
+    auto daemon = Daemon::start(config_, "", devices, events);
     ASSERT_TRUE(daemon) << daemon.error().sentence;
     daemon_ = std::move(*daemon);
     thread_ = std::thread([this] { daemon_->run(); });
@@ -100,11 +163,27 @@ class DaemonOnBoard : public testing::Test {
   }
   ~DaemonOnBoard() override { end(); }
 
+  // Waits until the log of what was told holds `part`, ten seconds at most.
+  bool is_told(const std::string& part) {
+    for (int k = 0; k < 100; ++k) {
+      {
+        const std::lock_guard lock(mutex_);
+        if (told_.find(part) != std::string::npos) return true;
+      }
+      std::this_thread::sleep_for(100ms);
+    }
+    return false;
+  }
+  // Something that the deciding thread hears.
+  void stir() { daemon_->hear(flight::PulseLine{LineEdge{clock_->now(), true, 0}}); }
+
   ingest::TemporaryFolder folder_;
   config::Config config_;
   Screen screen_;
-  std::unique_ptr<Clock> clock_;
-  std::unique_ptr<Storage> storage_;
+  std::mutex mutex_;
+  std::string told_;
+  std::unique_ptr<ClockAhead> clock_;
+  std::unique_ptr<FillingDisk> storage_;
   std::unique_ptr<GnssReceiver> receiver_;
   std::unique_ptr<PilotLink> pilot_;
   std::unique_ptr<Daemon> daemon_;
@@ -130,6 +209,37 @@ TEST_F(DaemonOnBoard, SaysNothingOfADiskWithRoom) {
   EXPECT_THAT(screen_.texts_until("Disk", 15), Not(Contains(HasSubstr("Disk"))));
   screen_.say_heartbeat(true);
   EXPECT_THAT(screen_.texts_until("Disk", 15), Not(Contains(HasSubstr("Disk"))));
+}
+
+TEST_F(DaemonOnBoard, LooksAtTheDiskAgainWhileItWaits) {
+  start();
+  EXPECT_THAT(screen_.texts_until("Disk", 5), Not(Contains(HasSubstr("Disk"))));
+  storage_->set_free(1);
+  clock_->skip(11s);
+  stir();
+  EXPECT_TRUE(is_told("room for 0 of 3 photos."));
+  const std::string full = "Disk: room for 0 of 3 photos";
+  EXPECT_THAT(screen_.texts_until(full), Contains(full));
+  EXPECT_THAT(daemon_->board().sentence(), HasSubstr("the disk has room for 0 photos of 3"));
+  clock_->skip(11s);
+  stir();
+  EXPECT_THAT(screen_.texts_until("Disk", 15), Not(Contains(HasSubstr("Disk")))) << "once";
+  storage_->set_free(1'000'000'000'000);
+  clock_->skip(11s);
+  stir();
+  EXPECT_TRUE(is_told("of 3 photos again."));
+}
+
+TEST_F(DaemonOnBoard, LooksAtTheDiskOnceInTenSeconds) {
+  start();
+  stir();
+  EXPECT_TRUE(is_told("receiver: "));
+  const int looks = storage_->looks();
+  for (int k = 0; k < 50; ++k) {
+    stir();
+    std::this_thread::sleep_for(10ms);
+  }
+  EXPECT_LE(storage_->looks(), looks + 1);
 }
 
 nlohmann::json status_in(const std::filesystem::path& file) {
