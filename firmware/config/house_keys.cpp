@@ -32,7 +32,9 @@ std::vector<Key> advice_keys() {
 
 std::vector<Key> measure_keys() {
   return {
-      yes_or_no({"measure", "enabled", "Measure the flight while it is flown."},
+      yes_or_no({"measure", "enabled",
+                 "Measure the flight while it is flown; at the start the last one, where it has no "
+                 "result yet."},
                 PLUMBLINE_FIELD(measure.enabled)),
       number({"measure", "memory_mb", "How much memory the measuring program may take."},
              kMegabytes, {100, 1'000'000}, PLUMBLINE_FIELD(measure.memory_mb)),
@@ -42,8 +44,9 @@ std::vector<Key> measure_keys() {
              kSeconds, {10, 86'400}, PLUMBLINE_FIELD(measure.longest)),
       text(
           {"measure", "command",
-           "\"\" starts plumbline measure; \"request\" writes the file that systemd's path unit "
-           "waits for."},
+           "\"\" starts plumbline measure; \"request\" writes the flight's path to measure.request "
+           "in the folder of the flights, for a service (a path unit of systemd's) that runs "
+           "plumbline measure on it and leaves its result in the flight."},
           R"("" or "request")",
           [](const std::string& word) { return word.empty() || word == "request"; },
           PLUMBLINE_FIELD(measure.command)),

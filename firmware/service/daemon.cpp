@@ -94,7 +94,14 @@ Result<std::unique_ptr<Daemon>> Daemon::start(const config::Config& config, cons
   daemon->session_ = std::make_unique<flight::Session>(options, devices, daemon->events());
   if (const Status started = daemon->session_->start(); !started) return started.error();
   daemon->look_at_space();
+  daemon->look_for_flight_without_result();
   return daemon;
+}
+
+void Daemon::look_for_flight_without_result() {
+  if (!measurer_) return;
+  const auto found = newest_flight(config_.recording.folder, MeasurerOptions().first_at);
+  if (found) measurer_->found(*found, found->flight == session_->recorder().folder());
 }
 
 void Daemon::advise(const geometry::Camera& camera) {
@@ -118,17 +125,22 @@ void Daemon::measure() {
   } else {
     options.program = config_.measure.command;
   }
-  const auto show = [this](const std::string& sentence) {
-    board_.measured(sentence);
-    tell(sentence);
+  Measurer::Events events;
+  events.failed = events.begun = [this](const std::string& flight, const std::string& sentence) {
+    show_result("Flight " + flight + ": " + sentence);
   };
-  const auto show_result = [this, show](const Measurer::Measured& measured) {
-    if (!measured.figures) return show(measured.sentence);
-    show(measured.sentence + " " + in_words(*measured.figures));
-    if (devices_.pilot == nullptr) return;
+  events.measured = [this](const Measurer::Measured& measured) {
+    const std::string figures = measured.figures ? " " + in_words(*measured.figures) : "";
+    show_result("Flight " + measured.flight + ": " + measured.sentence + figures);
+    if (devices_.pilot == nullptr || !measured.figures || measured.was_left) return;
     devices_.pilot->say(PilotSeverity::kInfo, for_the_pilot(*measured.figures));
   };
-  measurer_ = std::make_unique<Measurer>(options, Measurer::Events{show_result, show});
+  measurer_ = std::make_unique<Measurer>(options, std::move(events));
+}
+
+void Daemon::show_result(const std::string& sentence) {
+  board_.measured(sentence);
+  tell(sentence);
 }
 
 void Daemon::say(record::Severity severity, const std::string& source,

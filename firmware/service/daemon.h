@@ -51,6 +51,8 @@ class Daemon {
 
   void advise(const geometry::Camera& camera);
   void measure();
+  void show_result(const std::string& sentence);
+  void look_for_flight_without_result();
   flight::SessionEvents events();
   void tell(const std::string& sentence);
   void tell(const capture::Decision& decision);

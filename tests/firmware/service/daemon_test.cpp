@@ -17,6 +17,7 @@
 
 #include "edge/mavlink/frame_reader.h"
 #include "edge/mavlink/messages.h"
+#include "edge/record/journal.h"
 #include "firmware/devices_on_board.h"
 #include "tests/firmware/ingest/temporary_folder.h"
 #include "tests/talk/pilot_talk.h"
@@ -240,6 +241,37 @@ TEST_F(DaemonOnBoard, LooksAtTheDiskOnceInTenSeconds) {
     std::this_thread::sleep_for(10ms);
   }
   EXPECT_LE(storage_->looks(), looks + 1);
+}
+
+TEST_F(DaemonOnBoard, MeasuresTheFlightBeforeThatHasNoResult) {
+  for (const char* photo : {"1.jpg", "2.jpg", "3.jpg"}) {
+    folder_.write(std::string("flights/0001/photos/") + photo, std::string("x"));
+  }
+  std::string journal = record::journal_head();
+  record::append_entry(record::Began{"plumblined", "", "boot", {}, {}}, 0, journal);
+  record::append_entry(record::Ended{{}, "landed"}, 1, journal);
+  folder_.write("flights/0001/flight.journal", journal);
+  config_.measure.enabled = true;
+  config_.measure.command = "request";
+  start();
+  EXPECT_TRUE(is_told("Flight 0001: It has no result yet, and is measured now."));
+  const std::string result =
+      R"({"photos_used": 3, "unobservable": [],
+          "point_sigmas": {"median_e_m": 0.05, "median_n_m": 0.04, "median_u_m": 0.03}})";
+  for (int k = 0; k < 100 && !std::filesystem::exists(folder_ / "flights/measure.request"); ++k) {
+    std::this_thread::sleep_for(50ms);
+  }
+  folder_.write("new", result);
+  std::filesystem::create_directory(folder_ / "flights/0001/result");
+  std::filesystem::rename(folder_ / "new", folder_ / "flights/0001/result/summary.json");
+  EXPECT_TRUE(is_told("Flight 0001: Measured from 3 photos: "));
+  EXPECT_THAT(daemon_->board().sentence(), HasSubstr("Median sigma 5.0/4.0/3.0 cm"));
+  end();
+  told_.clear();
+  start();
+  EXPECT_TRUE(is_told("receiver: "));
+  end();
+  EXPECT_THAT(told_, Not(HasSubstr("Flight 0001"))) << "it has its result";
 }
 
 nlohmann::json status_in(const std::filesystem::path& file) {
