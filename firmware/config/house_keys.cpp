@@ -10,7 +10,10 @@ constexpr const char* kPath = "a path that begins with / and does not end with i
 
 std::vector<Key> recording_keys() {
   return {
-      text({"recording", "folder", "Flights are recorded here, each in a folder of its own."},
+      text({"recording", "folder",
+            "Flights are recorded here, each in a folder of its own. The usual one is made where "
+            "it is missing; another has to be there, so that a disk that is not mounted is "
+            "noticed."},
            kPath, is_absolute_path, PLUMBLINE_FIELD(recording.folder)),
       number({"recording", "keep_free_mb",
               "Room that photos are not to need: with too little besides, it is not ready."},

@@ -173,6 +173,11 @@ std::string StatusBoard::waiting() const {
 
 std::string StatusBoard::ready() const {
   if (lacks_space()) return "Not ready: " + room();
+  const auto line = last_said_.find("shutter line");
+  if (!needs_frames_ && line != last_said_.end() &&
+      line->second.severity == record::Severity::kFault) {
+    return "Not ready: no line to the shutter.";
+  }
   std::string text = std::string("Ready: ") + (fix_ ? name_of(fix_->quality) : "no position") +
                      "; " + begins_when() + ".";
   if (free_photos_) text += " " + std::to_string(*free_photos_) + " photos fit on the disk.";

@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "drivers/patient_line.h"
 #include "edge/mavlink/frame_reader.h"
 #include "edge/mavlink/messages.h"
 #include "edge/record/journal.h"
@@ -145,6 +146,7 @@ class DaemonOnBoard : public testing::Test {
             .value();
     flight::Devices devices{*clock_, *storage_, *receiver_};
     devices.pilot = pilot_.get();
+    devices.pulse_per_second = pulses_.get();
     DaemonEvents events;
     events.told = [this](const std::string& sentence) {
       const std::lock_guard lock(mutex_);
@@ -187,6 +189,7 @@ class DaemonOnBoard : public testing::Test {
   std::unique_ptr<FillingDisk> storage_;
   std::unique_ptr<GnssReceiver> receiver_;
   std::unique_ptr<PilotLink> pilot_;
+  std::unique_ptr<TriggerLine> pulses_;
   std::unique_ptr<Daemon> daemon_;
   std::thread thread_;
 };
@@ -241,6 +244,32 @@ TEST_F(DaemonOnBoard, LooksAtTheDiskOnceInTenSeconds) {
     std::this_thread::sleep_for(10ms);
   }
   EXPECT_LE(storage_->looks(), looks + 1);
+}
+
+TEST_F(DaemonOnBoard, StartsWithoutThePulsePerSecondAndSaysSo) {
+  const std::unique_ptr<Clock> clock = make_clock();
+  const std::string missing = folder_ / "pps0";
+  pulses_ =
+      std::make_unique<PatientLine>([&] { return make_pulse_per_second(missing, *clock); }, *clock);
+  start();
+  EXPECT_TRUE(is_told("pulse per second: Cannot open '" + missing + "': it is not there"));
+  EXPECT_THAT(daemon_->board().sentence(), HasSubstr(missing));
+  end();
+  pulses_.reset();
+}
+
+TEST_F(DaemonOnBoard, MakesTheFoldersOfFlightsWhereTheyAreMissing) {
+  const std::string wanted = folder_ / "var/lib/flights";
+  EXPECT_FALSE(open_folder(wanted));
+  const auto made = open_or_make_folder(wanted);
+  ASSERT_TRUE(made) << made.error().sentence;
+  EXPECT_TRUE(std::filesystem::is_directory(wanted));
+  EXPECT_TRUE((*made)->make_folder("0001"));
+  EXPECT_TRUE(open_or_make_folder(wanted));
+  folder_.write("file", std::string("x"));
+  const auto none = open_or_make_folder(folder_ / "file/flights");
+  ASSERT_FALSE(none);
+  EXPECT_THAT(none.error().sentence, HasSubstr("file"));
 }
 
 TEST_F(DaemonOnBoard, MeasuresTheFlightBeforeThatHasNoResult) {

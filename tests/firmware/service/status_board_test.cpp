@@ -78,6 +78,24 @@ TEST(StatusBoard, SaysWhatIsConfiguredToBeginAFlight) {
   EXPECT_THAT(by_pilot.sentence(), Not(HasSubstr("rise")));
 }
 
+TEST(StatusBoard, IsNotReadyWithoutTheLineThatReleasesPhotos) {
+  StatusBoard of_pulses(false);
+  of_pulses.decided(phase(capture::Phase::kReady));
+  of_pulses.said({HostTime{}, record::Severity::kFault, "shutter line", "It is not there."});
+  EXPECT_THAT(of_pulses.sentence(), HasSubstr("Not ready: no line to the shutter."));
+  EXPECT_THAT(of_pulses.sentence(), HasSubstr("It is not there."));
+  of_pulses.said({HostTime{}, record::Severity::kInfo, "shutter line", "It is there."});
+  EXPECT_THAT(of_pulses.sentence(), HasSubstr("Ready: "));
+}
+
+TEST(StatusBoard, SaysThatThePulsePerSecondIsMissing) {
+  StatusBoard board;
+  board.decided(phase(capture::Phase::kReady));
+  board.said({HostTime{}, record::Severity::kFault, "pulse per second", "No /dev/pps0."});
+  EXPECT_THAT(board.sentence(), HasSubstr("Ready: "));
+  EXPECT_THAT(board.sentence(), HasSubstr("No /dev/pps0."));
+}
+
 TEST(StatusBoard, ForgetsTheResultOfTheFlightBeforeAtTakeOff) {
   StatusBoard board;
   board.decided(phase(capture::Phase::kFlying));
