@@ -67,8 +67,11 @@ PatientLine::Trouble PatientLine::take_line() {
   Trouble trouble;
   if (!line) {
     auto opened = open_();
-    if (opened) line = std::move(opened).value();
-    if (!opened) trouble = opened.error().sentence;
+    if (opened) {
+      line = std::move(opened).value();
+    } else {
+      trouble = opened.error().sentence;
+    }
   }
   if (line && options_.has_input) {
     const Status heard = line->listen([this](LineEvent event) { hear(std::move(event)); });

@@ -30,7 +30,8 @@ bool CameraFinder::find() {
   for (const std::string& id : listed.ids) {
     const Status started = start(id);
     if (started && !trouble.empty()) {
-      sink_(CameraNotice{clock_.now(), "Took " + id + ", for: " + trouble});
+      std::string why = "Took ";
+      sink_(CameraNotice{clock_.now(), why.append(id).append(", for: ").append(trouble)});
     }
     if (started) return true;
     if (trouble.empty()) trouble = id + ": " + started.error().sentence;
@@ -40,7 +41,7 @@ bool CameraFinder::find() {
     return false;
   }
   trouble = "No camera is found: connect one, and see plumbline camera.";
-  for (const std::string& remark : listed.remarks) trouble += " " + remark;
+  for (const std::string& remark : listed.remarks) trouble.append(" ").append(remark);
   tell(CameraState::kAbsent, trouble);
   return false;
 }
