@@ -148,6 +148,25 @@ Result<std::unique_ptr<Storage>> open_folder(const std::string& folder) {
   return posix::open_storage(folder);
 }
 
+Result<std::unique_ptr<Storage>> open_or_make_folder(const std::string& folder) {
+  const std::filesystem::path wanted(folder);
+  std::filesystem::path above = wanted;
+  std::error_code trouble;
+  while (!std::filesystem::exists(above, trouble) && above.has_relative_path()) {
+    above = above.parent_path();
+  }
+  if (above == wanted) return open_folder(folder);
+  auto storage = open_folder(above.string());
+  if (!storage) return storage.error();
+  const std::filesystem::path missing = wanted.lexically_relative(above);
+  if (const Status made = (*storage)->make_folder(missing.string()); !made) return made.error();
+  for (std::filesystem::path made = missing; made.has_relative_path();) {
+    made = made.parent_path();
+    if (const Status kept = (*storage)->sync_folder(made.string()); !kept) return kept.error();
+  }
+  return open_folder(folder);
+}
+
 std::optional<std::string> folder_warning(const std::string& folder) {
   return posix::file_system_warning(folder);
 }

@@ -36,9 +36,11 @@ Result<std::unique_ptr<PilotLink>> make_pilot_link(const std::string& address, i
 
 std::vector<SerialPortInfo> list_serial_ports();
 
-// A folder of the file system; fails where it is not there. And what is to be said of the kind of
-// file system it lies on, empty where nothing is.
+// A folder of the file system; fails where it is not there, or makes it and those above it, so that
+// their names survive a power cut. And what is to be said of the kind of file system it lies on,
+// empty where nothing is.
 Result<std::unique_ptr<Storage>> open_folder(const std::string& folder);
+Result<std::unique_ptr<Storage>> open_or_make_folder(const std::string& folder);
 std::optional<std::string> folder_warning(const std::string& folder);
 
 // Wires to and from a camera's shutter, on GPIO lines; an empty name: without that one.

@@ -2,7 +2,6 @@
 #include <pthread.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -12,10 +11,12 @@
 #include <thread>
 #include <utility>
 
+#include "drivers/patient_line.h"
 #include "firmware/config/config_toml.h"
 #include "firmware/devices_in_sim.h"
 #include "firmware/devices_on_board.h"
 #include "firmware/ingest/text_file.h"
+#include "firmware/service/camera_finder.h"
 #include "firmware/service/daemon.h"
 
 namespace plumbline {
@@ -39,6 +40,8 @@ struct Devices {
   std::unique_ptr<TriggerLine> release;
   std::unique_ptr<TriggerLine> pulse_per_second;
   std::unique_ptr<PilotLink> pilot;
+  PatientLine* late_release = nullptr;  // those of the lines that may come later
+  PatientLine* late_pulses = nullptr;
 
   flight::Devices lent() {
     return {*clock,     *storage, *receiver, camera.get(), release.get(), pulse_per_second.get(),
@@ -67,6 +70,19 @@ Status make_the_camera(const config::Config& config, Devices& devices) {
   return put(make_camera(config.camera.id, *devices.clock), devices.camera);
 }
 
+void make_pulses(const std::string& address, Devices& devices) {
+  if (address.empty()) return;
+  PatientLineOptions options;
+  options.meanwhile =
+      "The arrival of its bytes tells the receiver's time until then; it is looked for again and "
+      "again.";
+  const Clock& clock = *devices.clock;
+  auto line = std::make_unique<PatientLine>(
+      [address, &clock] { return make_pulse_per_second(address, clock); }, clock, options);
+  devices.late_pulses = line.get();
+  devices.pulse_per_second = std::move(line);
+}
+
 Status make_lines(const config::Config& config, Devices& devices) {
   const config::TriggerConfig& trigger = config.trigger;
   if (is_simulated(devices, trigger.line)) {
@@ -77,15 +93,29 @@ Status make_lines(const config::Config& config, Devices& devices) {
   } else if (!trigger.line.empty()) {
     const ShutterWires wires{trigger.line, trigger.active_low, trigger.pulse, trigger.feedback_line,
                              trigger.feedback_active_low};
-    const Status made = put(make_shutter_wires(wires, *devices.clock), devices.release);
-    if (!made) return made;
+    PatientLineOptions options;
+    options.has_input = !trigger.feedback_line.empty();
+    options.has_output = true;
+    options.meanwhile = "No photo is released until it is there; it is looked for again and again.";
+    const Clock& clock = *devices.clock;
+    auto line = std::make_unique<PatientLine>(
+        [wires, &clock] { return make_shutter_wires(wires, clock); }, clock, options);
+    devices.late_release = line.get();
+    devices.release = std::move(line);
   }
-  if (config.receiver.pps.empty()) return Done{};
-  return put(make_pulse_per_second(config.receiver.pps, *devices.clock), devices.pulse_per_second);
+  make_pulses(config.receiver.pps, devices);
+  return Done{};
+}
+
+// The usual folder is made where it is missing. Another one has to be there: it may be on a disk
+// that is not mounted, and the flight would be recorded on the wrong one.
+Result<std::unique_ptr<Storage>> open_flights(const std::string& folder) {
+  const bool is_usual = folder == config::RecordingConfig{}.folder;
+  return is_usual ? open_or_make_folder(folder) : open_folder(folder);
 }
 
 Status make_devices(const config::Config& config, Devices& devices) {
-  Status made = put(open_folder(config.recording.folder), devices.storage);
+  Status made = put(open_flights(config.recording.folder), devices.storage);
   if (made) made = put(make_receiver(config.receiver.address, *devices.clock), devices.receiver);
   if (made) made = make_the_camera(config, devices);
   if (made) made = make_lines(config, devices);
@@ -96,44 +126,36 @@ Status make_devices(const config::Config& config, Devices& devices) {
   return made;
 }
 
-// Looks for any camera until there is one, and has the daemon hear it.
-class CameraFinder {
- public:
-  CameraFinder(const CameraOptions& options, const Clock& clock, service::Daemon& daemon)
-      : options_(options),
-        clock_(clock),
-        daemon_(daemon),
-        thread_([this](const std::stop_token& stop) { run(stop); }) {}
-  ~CameraFinder() {
-    thread_.request_stop();
-    thread_.join();
-    if (camera_) camera_->stop();
-  }
+std::unique_ptr<service::CameraFinder> find_camera(const config::Config& config, const Clock& clock,
+                                                   service::Daemon& daemon) {
+  service::CameraFinder::Cameras cameras;
+  cameras.list = [] {
+    const CamerasOnBoard found = list_cameras();
+    service::CamerasListed listed{{}, found.remarks};
+    for (const CameraDescription& camera : found.cameras) listed.ids.push_back(camera.id);
+    return listed;
+  };
+  cameras.make = [&clock](const std::string& id) { return make_camera(id, clock); };
+  return std::make_unique<service::CameraFinder>(
+      config.camera.options, clock, cameras,
+      [&daemon](CameraEvent event) { daemon.hear(std::move(event)); });
+}
 
- private:
-  void run(const std::stop_token& stop) {
-    while (!stop.stop_requested() && !find()) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    }
+// Of lines that were missing: their faults come as their own events.
+void tell_of_returns(Devices& devices, service::Daemon& daemon) {
+  const auto tell = [&daemon](const char* source) {
+    daemon.say(record::Severity::kInfo, source, "It is there.");
+  };
+  if (devices.late_release != nullptr) {
+    devices.late_release->on_return([tell] {
+      tell("shutter line");
+      tell("trigger line");
+    });
   }
-  bool find() {
-    for (const CameraDescription& description : list_cameras().cameras) {
-      auto camera = make_camera(description.id, clock_);
-      if (!camera) continue;
-      const auto sink = [this](CameraEvent event) { daemon_.hear(std::move(event)); };
-      if (!(*camera)->start(options_, sink)) continue;
-      camera_ = std::move(camera).value();
-      return true;
-    }
-    return false;
+  if (devices.late_pulses != nullptr) {
+    devices.late_pulses->on_return([tell] { tell("pulse per second"); });
   }
-
-  CameraOptions options_;
-  const Clock& clock_;
-  service::Daemon& daemon_;
-  std::unique_ptr<Camera> camera_;
-  std::jthread thread_;
-};
+}
 
 // Ends the daemon when SIGTERM or SIGINT comes. Made before any other thread.
 class EndSignals {
@@ -190,10 +212,9 @@ int run(const std::string& path, Devices& devices) {
     if (const Status begun = devices.bench->start(); !begun) return fail(begun.error().sentence);
   }
   signals.watch(**daemon);
-  std::unique_ptr<CameraFinder> finder;
-  if (config.camera.id.empty()) {
-    finder = std::make_unique<CameraFinder>(config.camera.options, *devices.clock, **daemon);
-  }
+  tell_of_returns(devices, **daemon);
+  std::unique_ptr<service::CameraFinder> finder;
+  if (config.camera.id.empty()) finder = find_camera(config, *devices.clock, **daemon);
   std::cerr << (*daemon)->board().sentence() + '\n';
   (*daemon)->run();
   finder.reset();

@@ -11,6 +11,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 
 #include "firmware/commands/run_report.h"
 #include "firmware/config/config.h"
@@ -24,7 +25,8 @@ struct StatusArguments {
   bool json = false;
 };
 
-// A connection to the daemon, which writes a line of JSON at once and whenever something changes.
+// A connection to the daemon, which writes a line of JSON at once, whenever something changes, and
+// every second.
 class DaemonLines {
  public:
   ~DaemonLines() {
@@ -65,13 +67,14 @@ class DaemonLines {
   std::string text_;
 };
 
-void show(const std::string& line, bool json) {
-  if (json) {
-    std::printf("%s\n", line.c_str());
-  } else {
-    const auto status = nlohmann::json::parse(line, nullptr, false);
-    std::printf("%s\n", status.is_object() ? status.value("sentence", line).c_str() : line.c_str());
-  }
+// The sentence of a line; the whole of one that has none.
+std::string sentence_of(const std::string& line) {
+  const auto status = nlohmann::json::parse(line, nullptr, false);
+  return status.is_object() ? status.value("sentence", line) : line;
+}
+
+void show(const std::string& text) {
+  std::printf("%s\n", text.c_str());
   std::fflush(stdout);
 }
 
@@ -82,8 +85,12 @@ int run_status(const StatusArguments& arguments) {
   }
   std::string line = daemon.next();
   if (line.empty()) return fail({"The daemon closed the connection: see its journal."});
-  show(line, arguments.json);
-  while (arguments.watch && !(line = daemon.next()).empty()) show(line, arguments.json);
+  std::string shown;
+  do {
+    std::string text = arguments.json ? line : sentence_of(line);
+    if (text != shown) show(text);
+    shown = std::move(text);
+  } while (arguments.watch && !(line = daemon.next()).empty());
   return arguments.watch ? fail({"The daemon has stopped."}) : kGood;
 }
 
@@ -93,7 +100,7 @@ void add_status(CLI::App& app, int& status) {
   auto arguments = std::make_shared<StatusArguments>();
   CLI::App* command = app.add_subcommand("status", "What the daemon is doing, in one line.");
   command->add_flag("--watch", arguments->watch, "a line for every change, until it stops");
-  command->add_flag("--json", arguments->json, "all of it, an object a line");
+  command->add_flag("--json", arguments->json, "all of it, an object a line, every second");
   command->add_option("--socket", arguments->socket, "the daemon's socket")->capture_default_str();
   command->footer("Example: plumbline status --watch");
   command->callback([arguments, &status] { status = run_status(*arguments); });

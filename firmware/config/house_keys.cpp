@@ -10,7 +10,10 @@ constexpr const char* kPath = "a path that begins with / and does not end with i
 
 std::vector<Key> recording_keys() {
   return {
-      text({"recording", "folder", "Flights are recorded here, each in a folder of its own."},
+      text({"recording", "folder",
+            "Flights are recorded here, each in a folder of its own. The usual one is made where "
+            "it is missing; another has to be there, so that a disk that is not mounted is "
+            "noticed."},
            kPath, is_absolute_path, PLUMBLINE_FIELD(recording.folder)),
       number({"recording", "keep_free_mb",
               "Room that photos are not to need: with too little besides, it is not ready."},
@@ -32,7 +35,9 @@ std::vector<Key> advice_keys() {
 
 std::vector<Key> measure_keys() {
   return {
-      yes_or_no({"measure", "enabled", "Measure the flight while it is flown."},
+      yes_or_no({"measure", "enabled",
+                 "Measure the flight while it is flown; at the start the last one, where it has no "
+                 "result yet."},
                 PLUMBLINE_FIELD(measure.enabled)),
       number({"measure", "memory_mb", "How much memory the measuring program may take."},
              kMegabytes, {100, 1'000'000}, PLUMBLINE_FIELD(measure.memory_mb)),
@@ -42,8 +47,9 @@ std::vector<Key> measure_keys() {
              kSeconds, {10, 86'400}, PLUMBLINE_FIELD(measure.longest)),
       text(
           {"measure", "command",
-           "\"\" starts plumbline measure; \"request\" writes the file that systemd's path unit "
-           "waits for."},
+           "\"\" starts plumbline measure; \"request\" writes the flight's path to measure.request "
+           "in the folder of the flights, for a service (a path unit of systemd's) that runs "
+           "plumbline measure on it and leaves its result in the flight."},
           R"("" or "request")",
           [](const std::string& word) { return word.empty() || word == "request"; },
           PLUMBLINE_FIELD(measure.command)),
@@ -52,9 +58,13 @@ std::vector<Key> measure_keys() {
 
 std::vector<Key> status_keys() {
   return {
-      text({"status", "file", "What plumbline status reads: JSON, replaced as a whole."}, kPath,
-           is_absolute_path, PLUMBLINE_FIELD(status.file)),
-      text({"status", "socket", "Live messages, one JSON object a line, on a local socket."},
+      text({"status", "file",
+            "For other programs: JSON, replaced as a whole at each change and every second, with "
+            "time and pid. After a clean stop its phase is \"stopped\"; where time is older than "
+            "a few seconds, the daemon was killed."},
+           kPath, is_absolute_path, PLUMBLINE_FIELD(status.file)),
+      text({"status", "socket",
+            "What plumbline status reads: the same JSON, an object a line, on a local socket."},
            "a path of at most 107 bytes that begins with /", is_socket_path,
            PLUMBLINE_FIELD(status.socket)),
   };

@@ -283,7 +283,10 @@ bool Session::work_disk() {
 
 HostTime Session::disk_due() const {
   HostTime due = HostTime::max();
-  for (const auto& recorder : recorders()) due = std::min(due, recorder->due());
+  for (const auto& recorder : recorders()) {
+    due = std::min(due, recorder->due());
+    if (!recorder->has_ended()) break;  // as work_disk() does: the others wait for it
+  }
   return due;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "firmware/service/daemon.h"
 
+#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <utility>
@@ -10,6 +11,8 @@
 
 namespace plumbline::service {
 namespace {
+
+constexpr std::chrono::seconds kLookAtDiskEvery{10};
 
 // Tells this boot of the machine from others: host times compare within one.
 std::string boot_id() {
@@ -37,10 +40,14 @@ Daemon::Daemon(const config::Config& config, flight::Devices devices, SingleInst
       devices_(devices),
       instance_(std::move(instance)),
       own_(std::move(own)),
-      board_(config.capture.release.release == capture::Release::kNearestFrame) {}
+      board_(config.capture.release.release == capture::Release::kNearestFrame,
+             config.capture.take_off) {}
 
 Daemon::~Daemon() {
   session_.reset();  // its events reach the others
+  measurer_.reset();
+  adviser_.reset();
+  board_.stopped();
 }
 
 Result<std::unique_ptr<Daemon>> Daemon::start(const config::Config& config, const std::string& text,
@@ -50,7 +57,12 @@ Result<std::unique_ptr<Daemon>> Daemon::start(const config::Config& config, cons
   auto advice = adviser_options(config);
   if (!advice) return advice.error();
   std::unique_ptr<Daemon> daemon(new Daemon(config, devices, std::move(*instance), std::move(own)));
-  auto server = StatusServer::start(daemon->board_, config.status.socket, config.status.file);
+  auto server =
+      StatusServer::start(daemon->board_, config.status.socket, config.status.file,
+                          [daemon = daemon.get()](bool good, const std::string& sentence) {
+                            daemon->say(good ? record::Severity::kInfo : record::Severity::kWarning,
+                                        "status", sentence);
+                          });
   if (!server) return server.error();
   daemon->server_ = std::move(*server);
   if (config.advice.enabled) daemon->advise(std::move(*advice));
@@ -64,9 +76,15 @@ Result<std::unique_ptr<Daemon>> Daemon::start(const config::Config& config, cons
   daemon->session_ = std::make_unique<flight::Session>(options, devices, daemon->events());
   if (const Status started = daemon->session_->start(); !started) return started.error();
   if (daemon->adviser_) daemon->remember();
-  daemon->make_room();
   daemon->look_at_space();
+  daemon->look_for_flight_without_result();
   return daemon;
+}
+
+void Daemon::look_for_flight_without_result() {
+  if (!measurer_) return;
+  const auto found = newest_flight(config_.recording.folder, MeasurerOptions().first_at);
+  if (found) measurer_->found(*found, found->flight == session_->recorder().folder());
 }
 
 void Daemon::advise(AdviserOptions options) {
@@ -93,17 +111,28 @@ void Daemon::measure() {
   } else {
     options.program = config_.measure.command;
   }
-  const auto show = [this](const std::string& sentence) {
-    board_.measured(sentence);
-    tell(sentence);
+  Measurer::Events events;
+  events.failed = events.begun = [this](const std::string& flight, const std::string& sentence) {
+    show_result("Flight " + flight + ": " + sentence);
   };
-  const auto show_result = [this, show](const Measurer::Measured& measured) {
-    if (!measured.figures) return show(measured.sentence);
-    show(measured.sentence + " " + in_words(*measured.figures));
-    if (devices_.pilot == nullptr) return;
+  events.measured = [this](const Measurer::Measured& measured) {
+    const std::string figures = measured.figures ? " " + in_words(*measured.figures) : "";
+    show_result("Flight " + measured.flight + ": " + measured.sentence + figures);
+    if (devices_.pilot == nullptr || !measured.figures || measured.was_left) return;
     devices_.pilot->say(PilotSeverity::kInfo, for_the_pilot(*measured.figures));
   };
-  measurer_ = std::make_unique<Measurer>(options, Measurer::Events{show_result, show});
+  measurer_ = std::make_unique<Measurer>(options, std::move(events));
+}
+
+void Daemon::show_result(const std::string& sentence) {
+  board_.measured(sentence);
+  tell(sentence);
+}
+
+void Daemon::say(record::Severity severity, const std::string& source,
+                 const std::string& sentence) {
+  board_.said({devices_.clock.now(), severity, source, sentence});
+  tell(source + ": " + sentence);
 }
 
 void Daemon::tell(const std::string& sentence) {
@@ -130,6 +159,9 @@ flight::SessionEvents Daemon::events() {
   flight::SessionEvents events;
   events.heard = [this](const capture::Input& input) { heard(input); };
   events.decided = [this](const capture::Decision& decision) {
+    if (const auto* phase = std::get_if<capture::PhaseChanged>(&decision.what)) {
+      flying_ = phase->phase == capture::Phase::kFlying;
+    }
     board_.decided(decision);
     tell(decision);
     own_.decided(decision);
@@ -147,21 +179,27 @@ flight::SessionEvents Daemon::events() {
   events.ended = [this](const std::string& folder) {
     board_.ended(folder);
     own_.ended(folder);
-    make_room();
-    look_at_space();
+    lack_is_told_ = false;
+    if (!flying_) look_at_space();
     if (measurer_) measurer_->ended(folder);
   };
   return events;
 }
 
+// In flight this thread leaves the disk alone.
 void Daemon::heard(const capture::Input& input) {
   board_.heard(input);
+  bool is_due = !looked_ || input.now >= *looked_ + kLookAtDiskEvery;
   if (const auto* frame = std::get_if<capture::FrameSeen>(&input.what)) {
     const bool tells = frame->rows > 1;  // else the camera keeps its pictures
-    if (tells && std::exchange(rows_seen_, frame->rows) != frame->rows) look_at_space();
+    if (tells && std::exchange(rows_seen_, frame->rows) != frame->rows) is_due = true;
   } else if (std::holds_alternative<capture::PilotSeen>(input.what)) {
-    look_at_space();  // an autopilot that was not there before, or is armed now
+    is_due = true;  // an autopilot that was not there before, or is armed now
+    lack_is_told_ = false;
   }
+  if (!is_due || flying_) return;
+  looked_ = input.now;
+  look_at_space();
 }
 
 Daemon::Space Daemon::space() const {
@@ -177,13 +215,20 @@ void Daemon::make_room() {
 }
 
 void Daemon::look_at_space() {
-  const Space found = space();
+  Space found = space();
+  if (!found.is_enough() && !lack_is_told_) {
+    make_room();
+    found = space();
+  }
   if (!found.photos) return;
   board_.space(*found.photos, found.planned);
-  if (found.is_enough() || devices_.pilot == nullptr) return;
-  devices_.pilot->say(PilotSeverity::kWarning, "Disk: room for " + std::to_string(*found.photos) +
-                                                   " of " + std::to_string(found.planned) +
-                                                   " photos");
+  const bool lacks = !found.is_enough();
+  if (std::exchange(lack_is_told_, lacks) == lacks) return;
+  const std::string room =
+      std::to_string(*found.photos) + " of " + std::to_string(found.planned) + " photos";
+  tell("disk: There is room for " + room + (lacks ? "." : " again."));
+  if (!lacks || devices_.pilot == nullptr) return;
+  devices_.pilot->say(PilotSeverity::kWarning, "Disk: room for " + room);
 }
 
 void Daemon::run() {

@@ -40,6 +40,8 @@ class Daemon {
 
   // A camera that was found later.
   void hear(flight::DeviceEvent event) { session_->hear(std::move(event)); }
+  // For log and status, not for the flight's recording: what no device says of itself. Any thread.
+  void say(record::Severity severity, const std::string& source, const std::string& sentence);
   const StatusBoard& board() const { return board_; }
 
  private:
@@ -49,6 +51,8 @@ class Daemon {
   void advise(AdviserOptions options);
   void remember();
   void measure();
+  void show_result(const std::string& sentence);
+  void look_for_flight_without_result();
   flight::SessionEvents events();
   void tell(const std::string& sentence);
   void tell(const capture::Decision& decision);
@@ -70,6 +74,9 @@ class Daemon {
   std::mutex told_mutex_;
   StatusBoard board_;
   std::optional<int> rows_seen_;  // of the camera's frames
+  bool flying_ = false;
+  std::optional<HostTime> looked_;  // at the disk
+  bool lack_is_told_ = false;       // of room on it
   std::unique_ptr<StatusServer> server_;
   std::unique_ptr<Measurer> measurer_;
   std::unique_ptr<Adviser> adviser_;

@@ -88,7 +88,10 @@ void become_humble(int memory_mb) {
 }  // namespace
 
 Measurer::Measurer(const MeasurerOptions& options, Events events)
-    : options_(options), events_(std::move(events)), thread_([this] { run(); }) {}
+    : options_(options),
+      events_(std::move(events)),
+      request_(options.request_file, options.longest),
+      thread_([this] { run(); }) {}
 
 Measurer::~Measurer() {
   {
@@ -98,9 +101,21 @@ Measurer::~Measurer() {
   thread_.join();
 }
 
+void Measurer::found(const FoundFlight& flight, bool is_under_way) {
+  const std::lock_guard lock(mutex_);
+  if (is_under_way) {
+    wish_ = {flight.flight, flight.photos};
+    if (!flight.is_measured) return;
+    measured_flight_ = flight.flight;
+    measured_photos_ = flight.photos;
+  } else if (!flight.is_measured) {
+    left_ = Wish{flight.flight, flight.photos, true, true};
+  }
+}
+
 void Measurer::stored(const std::string& flight) {
   const std::lock_guard lock(mutex_);
-  if (flight != wish_.flight) wish_ = {flight, 0, false};
+  if (flight != wish_.flight) wish_ = {flight, 0};
   ++wish_.photos;
 }
 
@@ -111,59 +126,112 @@ void Measurer::ended(const std::string& flight) {
 
 void Measurer::run() {
   for (;;) {
-    Wish wish;
-    bool again = false;
+    std::optional<Wish> wish;
     {
       const std::lock_guard lock(mutex_);
       if (stopping_) return;
-      wish = wish_;
-      again = failed_ && wish.landed;
+      wish = next();
     }
-    const bool news = wish.photos > measured_photos_ || wish.flight != measured_flight_;
-    if (wish.photos >= options_.first_at && (news || again)) {
-      measure(wish);
+    look_for_answer();
+    if (wish) {
+      measure(*wish);
     } else {
       std::this_thread::sleep_for(100ms);
     }
   }
 }
 
+// Whether there is something new of the flight that is flown.
+bool Measurer::is_due() const {
+  const bool news = wish_.photos > measured_photos_ || wish_.flight != measured_flight_;
+  return wish_.photos >= options_.first_at && (news || (again_ && wish_.landed));
+}
+
+std::optional<Measurer::Wish> Measurer::next() const {
+  if (is_due()) return wish_;
+  const bool is_flown = wish_.photos > 0 && !wish_.landed;
+  return is_flown ? std::nullopt : left_;
+}
+
 void Measurer::measure(const Wish& wish) {
-  const std::string folder = options_.flights + "/" + wish.flight;
-  measured_flight_ = wish.flight;
-  measured_photos_ = wish.photos;
-  if (!options_.request_file.empty()) {
-    if (!request(folder)) events_.failed("Cannot write " + options_.request_file + ".");
-    return;
+  {
+    const std::lock_guard lock(mutex_);
+    if (wish.was_left) {
+      left_.reset();
+    } else {
+      measured_flight_ = wish.flight;
+      measured_photos_ = wish.photos;
+    }
   }
-  const pid_t process = spawn(folder);
-  const int status = process > 0 ? wait_for(process, folder) : -1;
+  if (wish.was_left && !has_ended(folder_of(wish))) {
+    return events_.failed(wish.flight,
+                          "It was not measured, and its recording has no end; "
+                          "plumbline measure " +
+                              folder_of(wish) + " measures it.");
+  }
+  if (wish.was_left) events_.begun(wish.flight, "It has no result yet, and is measured now.");
+  if (options_.request_file.empty()) {
+    measure_in_process(wish);
+  } else {
+    ask(wish);
+  }
+}
+
+void Measurer::measure_in_process(const Wish& wish) {
+  const pid_t process = spawn(folder_of(wish));
+  const std::optional<int> status = process > 0 ? wait_for(process, wish) : -1;
   {
     const std::lock_guard lock(mutex_);
     if (stopping_) return;
+    if (!status) {  // it gave way
+      left_ = wish;
+      return;
+    }
     if (wish_.flight == wish.flight) measured_photos_ = wish_.photos;  // it followed them
   }
-  judge(folder, status, wish.landed);
+  judge(wish, *status);
 }
 
-void Measurer::judge(const std::string& folder, int status, bool was_last_try) {
+void Measurer::judge(const Wish& wish, int status) {
   const bool good = status >= 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
-  failed_ = !good && !was_last_try;
+  if (!wish.was_left) {
+    const std::lock_guard lock(mutex_);
+    again_ = !good && !wish.landed;
+  }
   if (good) return;
   if (status >= 0 && WIFSIGNALED(status)) {
-    events_.failed("The measuring process was ended by signal " + std::to_string(WTERMSIG(status)) +
-                   "; the photos are kept.");
+    events_.failed(wish.flight, "The measuring process was ended by signal " +
+                                    std::to_string(WTERMSIG(status)) + "; the photos are kept.");
   } else {
-    events_.failed("The measuring process failed; the photos are kept, and " + folder + kLog +
-                   " says why.");
+    events_.failed(wish.flight, "The measuring process failed; the photos are kept, and " +
+                                    folder_of(wish) + kLog + " says why.");
   }
 }
 
-bool Measurer::request(const std::string& flight) const {
-  std::ofstream file(options_.request_file, std::ios::trunc);
-  file << flight << '\n';
-  file.close();
-  return file.good();
+// Asked again for each photo, and once more after landing: a service that was measuring when the
+// file was written may not have seen it.
+void Measurer::ask(const Wish& wish) {
+  asked_ = wish;
+  if (!wish.was_left) {
+    const std::lock_guard lock(mutex_);
+    again_ = !wish.landed;
+  }
+  if (request_.ask(folder_of(wish), wish.photos, ResultRequest::Time::clock::now())) return;
+  events_.failed(wish.flight, "Cannot write " + options_.request_file + ".");
+}
+
+void Measurer::look_for_answer() {
+  const auto answer = request_.answer(ResultRequest::Time::clock::now());
+  if (!answer) return;
+  if (answer->is_last && !asked_.was_left) {
+    const std::lock_guard lock(mutex_);
+    again_ = false;
+  }
+  if (answer->good) {
+    events_.measured({asked_.flight, answer->sentence, answer->figures, asked_.was_left});
+  } else {
+    events_.failed(asked_.flight, answer->sentence);
+  }
 }
 
 pid_t Measurer::spawn(const std::string& flight) const {
@@ -186,34 +254,40 @@ pid_t Measurer::spawn(const std::string& flight) const {
   ::_exit(127);
 }
 
-int Measurer::wait_for(pid_t process, const std::string& flight) {
-  ResultLines results(flight + kLog);
-  auto rested = std::chrono::steady_clock::now();  // when nothing was due last, or a result came
+// Its status; empty where it was stopped for the sake of others.
+std::optional<int> Measurer::wait_for(pid_t process, const Wish& wish) {
+  const std::string folder = folder_of(wish);
+  ResultLines results(folder + kLog);
+  auto rested = ResultRequest::Time::clock::now();  // when nothing was due last, or a result came
   int measured = 0;
   int status = 0;
   for (;;) {
-    const auto now = std::chrono::steady_clock::now();
     const bool is_over = ::waitpid(process, &status, WNOHANG) == process;
     while (const auto sentence = results.next()) {
       measured = photos_of(*sentence);
-      rested = now;
-      events_.measured({*sentence, read_result(flight + kResultFolder)});
+      rested = ResultRequest::Time::clock::now();
+      events_.measured(
+          {wish.flight, *sentence, read_result(folder + kResultFolder), wish.was_left});
     }
     if (is_over) return status;
-    bool stop = false;
-    {
-      const std::lock_guard lock(mutex_);
-      const bool is_due = wish_.photos > measured || wish_.landed;
-      if (!is_due) rested = now;
-      stop = stopping_ || now > rested + options_.longest;
+    const Stop stop = must_stop(wish, measured, rested);
+    if (stop == Stop::kNo) {
+      std::this_thread::sleep_for(50ms);
+      continue;
     }
-    if (stop) {
-      ::kill(process, SIGKILL);
-      ::waitpid(process, &status, 0);
-      return status;
-    }
-    std::this_thread::sleep_for(50ms);
+    ::kill(process, SIGKILL);
+    ::waitpid(process, &status, 0);
+    return stop == Stop::kTooLong ? std::optional(status) : std::nullopt;
   }
+}
+
+Measurer::Stop Measurer::must_stop(const Wish& wish, int measured, ResultRequest::Time& rested) {
+  const auto now = ResultRequest::Time::clock::now();
+  const std::lock_guard lock(mutex_);
+  if (stopping_ || (wish.was_left && is_due())) return Stop::kForOthers;
+  const bool is_over = wish_.flight != wish.flight || wish_.landed;
+  if (!is_over && wish_.photos <= measured) rested = now;
+  return now > rested + options_.longest ? Stop::kTooLong : Stop::kNo;
 }
 
 }  // namespace plumbline::service

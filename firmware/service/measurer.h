@@ -10,7 +10,9 @@
 #include <string>
 #include <thread>
 
+#include "firmware/service/found_flight.h"
 #include "firmware/service/result_figures.h"
+#include "firmware/service/result_request.h"
 
 namespace plumbline::service {
 
@@ -26,20 +28,27 @@ struct MeasurerOptions {
 // Has the flight measured while it goes on: a process of its own, at idle priority, bounded in
 // memory and time, that reads what is durable on the disk and follows the flight until it has
 // ended. Started when photos have come; where it died, started again for the next photo, and once
-// more after landing. What it does or fails to do costs no photo. One thread of its own.
+// more after landing. A flight that was found without its result is measured when none is flown.
+// What it does or fails to do costs no photo. One thread of its own.
 class Measurer {
  public:
   struct Measured {
+    std::string flight;  // "0003"
     std::string sentence;
     std::optional<ResultFigures> figures;  // empty where the result does not tell them
+    bool was_left = false;                 // a flight of before the program started
   };
   struct Events {
     std::function<void(const Measured& measured)> measured;
-    std::function<void(const std::string& sentence)> failed;
+    std::function<void(const std::string& flight, const std::string& sentence)> failed;
+    std::function<void(const std::string& flight, const std::string& sentence)> begun;  // if left
   };
 
   Measurer(const MeasurerOptions& options, Events events);
   ~Measurer();  // stops the process
+
+  // At the start, before any other: the newest flight on the disk, and whether it is gone on with.
+  void found(const FoundFlight& flight, bool is_under_way);
 
   void stored(const std::string& flight);
   void ended(const std::string& flight);
@@ -49,23 +58,34 @@ class Measurer {
     std::string flight;
     int photos = 0;
     bool landed = false;
+    bool was_left = false;
   };
+  enum class Stop { kNo, kTooLong, kForOthers };
 
   void run();
+  bool is_due() const;
+  std::optional<Wish> next() const;
   void measure(const Wish& wish);
-  void judge(const std::string& folder, int status, bool was_last_try);
+  void measure_in_process(const Wish& wish);
+  void judge(const Wish& wish, int status);
+  void ask(const Wish& wish);
+  void look_for_answer();
   pid_t spawn(const std::string& flight) const;
-  int wait_for(pid_t process, const std::string& flight);
-  bool request(const std::string& flight) const;
+  std::optional<int> wait_for(pid_t process, const Wish& wish);
+  Stop must_stop(const Wish& wish, int measured, ResultRequest::Time& rested);
+  std::string folder_of(const Wish& wish) const { return options_.flights + "/" + wish.flight; }
 
   MeasurerOptions options_;
   Events events_;
   std::mutex mutex_;
   Wish wish_;
+  std::optional<Wish> left_;
   int measured_photos_ = 0;
   std::string measured_flight_;
-  bool failed_ = false;
+  bool again_ = false;  // once more after landing
   bool stopping_ = false;
+  ResultRequest request_;  // of the thread
+  Wish asked_;
   std::thread thread_;
 };
 

@@ -32,6 +32,8 @@ std::optional<ResultFigures> read_result(const std::string& folder) {
     figures.sigma_enu_m = {median_m("median_e_m"), median_m("median_n_m"), median_m("median_u_m")};
     figures.azimuth_is_unknown =
         std::find(unobservable.begin(), unobservable.end(), "azimuth") != unobservable.end();
+    figures.photos_given = summary.value("photos_given", figures.photos);
+    figures.converged = summary.value("converged", true);
     return figures;
   } catch (const nlohmann::json::exception&) {  // another shape, or a figure that is null
     return std::nullopt;

@@ -12,6 +12,8 @@ struct ResultFigures {
   int photos = 0;                   // oriented
   Eigen::Vector3d sigma_enu_m;      // medians over the points
   bool azimuth_is_unknown = false;  // said to be not observable
+  int photos_given = 0;
+  bool converged = true;
 };
 
 // From RESULT/summary.json. Empty where it is missing or not one of a result.

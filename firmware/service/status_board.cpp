@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "firmware/service/status_board.h"
 
+#include <time.h>
+#include <unistd.h>
+
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace plumbline::service {
 namespace {
@@ -31,6 +35,16 @@ std::string metres(double value) {
   return text;
 }
 
+// Of the system's clock, UTC: "2026-11-20T10:00:00Z".
+std::string time_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm utc{};
+  ::gmtime_r(&now, &utc);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &utc);
+  return text;
+}
+
 }  // namespace
 
 void StatusBoard::heard(const capture::Input& input) {
@@ -41,6 +55,9 @@ void StatusBoard::heard(const capture::Input& input) {
     if (other) changed();
   } else if (const auto* camera = std::get_if<capture::CameraSeen>(&input.what)) {
     streaming_ = camera->streaming;
+    changed();
+  } else if (const auto* pilot = std::get_if<capture::PilotSeen>(&input.what)) {
+    pilot_seen_ = pilot->armed.has_value();
     changed();
   }
 }
@@ -53,6 +70,7 @@ void StatusBoard::decided(const capture::Decision& decision) {
       last_photo_.reset();
       left_m_.clear();
       advice_.clear();
+      result_.clear();
     }
     phase_ = phase->phase;
     ground_height_m_ = phase->ground_height_m;
@@ -109,6 +127,15 @@ void StatusBoard::space(std::int64_t free_photos, std::int64_t planned_photos) {
   planned_photos_ = planned_photos;
 }
 
+void StatusBoard::stopped() {
+  const std::lock_guard lock(mutex_);
+  stopped_ = true;
+  streaming_ = false;
+  fix_.reset();
+  last_said_.clear();
+  changed();
+}
+
 std::uint64_t StatusBoard::version() const {
   const std::lock_guard lock(mutex_);
   return version_;
@@ -130,56 +157,90 @@ std::string StatusBoard::left_behind(const char* what_then) const {
 }
 
 std::string StatusBoard::sentence_locked() const {
-  const std::string fix = fix_ ? name_of(fix_->quality) : "no position";
   std::string text;
-  const auto add_said = [&](const char* source) {
-    const auto said = last_said_.find(source);
-    if (said == last_said_.end()) return;
-    if (said->second.severity != record::Severity::kInfo) text += " " + said->second.sentence;
-  };
-  const std::string photos = std::to_string(stored_) + " of " + std::to_string(taken_) +
-                             " photos stored" +
-                             (missed_ > 0 ? ", " + std::to_string(missed_) + " missed" : "") +
-                             (marked_ > 0 ? ", " + std::to_string(marked_) + " marked" : "") + ".";
-  switch (phase_) {
-    case capture::Phase::kWaiting:
-      text = std::string("Waiting for ") +
-             (!fix_ || fix_->quality == FixQuality::kNone ? "a position" : "the camera") + ".";
-      break;
-    case capture::Phase::kReady:
-      if (lacks_space()) {
-        text = "Not ready: the disk has room for " + std::to_string(*free_photos_) + " photos of " +
-               std::to_string(planned_photos_) + "; move old flights to another disk.";
-        break;
-      }
-      text = "Ready: " + fix + "; takes off at 3 m of rise.";
-      if (free_photos_) text += " " + std::to_string(*free_photos_) + " photos fit on the disk.";
-      break;
-    case capture::Phase::kFlying:
-      text = "Flying";
-      if (last_photo_ && last_photo_->place) {
-        text += ", last photo at " + metres(last_photo_->place->height_m);
-      }
-      text += ": " + fix + "; " + photos;
-      if (needs_frames_ && !streaming_) text += " No camera sends frames: no photo is taken.";
-      text += left_behind(": fly there again.");
-      if (!advice_.empty()) text += " " + advice_;
-      break;
-    case capture::Phase::kLanded:
-      text = "Landed: " + photos + left_behind(".");
-      break;
+  if (stopped_) {
+    text = "plumblined was stopped";
+    text += phase_ == capture::Phase::kFlying
+                ? " in flight; started again, it goes on with the flight. " + photos()
+                : ".";
+  } else if (phase_ == capture::Phase::kWaiting) {
+    text = waiting();
+  } else if (phase_ == capture::Phase::kReady) {
+    text = ready();
+  } else if (phase_ == capture::Phase::kFlying) {
+    text = flying();
+  } else {
+    text = "Landed: " + photos() + left_behind(".");
   }
   if (phase_ != capture::Phase::kFlying && !result_.empty()) text += " " + result_;
-  for (const char* source : {"receiver", "camera", "autopilot", "disk", "trigger line", "photo"}) {
-    add_said(source);
+  for (const char* source : {"receiver", "camera", "autopilot", "disk", "trigger line",
+                             "shutter line", "pulse per second", "photo", "status"}) {
+    const auto said = last_said_.find(source);
+    if (said == last_said_.end()) continue;
+    if (said->second.severity != record::Severity::kInfo) text += " " + said->second.sentence;
   }
   return text;
 }
 
+std::string StatusBoard::waiting() const {
+  const bool placed = fix_ && fix_->quality != FixQuality::kNone;
+  const std::string text = placed ? "Waiting for the camera" : "Waiting for a position";
+  return text + (lacks_space() ? "; " + room() : ".");
+}
+
+std::string StatusBoard::ready() const {
+  if (lacks_space()) return "Not ready: " + room();
+  const auto line = last_said_.find("shutter line");
+  if (!needs_frames_ && line != last_said_.end() &&
+      line->second.severity == record::Severity::kFault) {
+    return "Not ready: no line to the shutter.";
+  }
+  std::string text = std::string("Ready: ") + (fix_ ? name_of(fix_->quality) : "no position") +
+                     "; " + begins_when() + ".";
+  if (free_photos_) text += " " + std::to_string(*free_photos_) + " photos fit on the disk.";
+  return text;
+}
+
+std::string StatusBoard::begins_when() const {
+  const bool by_pilot = take_off_.by != capture::TakeOffBy::kHeight;
+  if (take_off_.by == capture::TakeOffBy::kArmed && pilot_seen_) {
+    return "begins when the autopilot is armed";
+  }
+  char rise[64];
+  std::snprintf(rise, sizeof rise, "takes off at %g m of rise%s", take_off_.rise_m,
+                by_pilot && pilot_seen_ ? ", as the autopilot says" : "");
+  return by_pilot && !pilot_seen_ ? std::string("no autopilot heard: ") + rise : rise;
+}
+
+std::string StatusBoard::flying() const {
+  std::string text = "Flying";
+  if (last_photo_ && last_photo_->place) {
+    text += ", last photo at " + metres(last_photo_->place->height_m);
+  }
+  text += std::string(": ") + (fix_ ? name_of(fix_->quality) : "no position") + "; " + photos();
+  if (needs_frames_ && !streaming_) text += " No camera sends frames: no photo is taken.";
+  text += left_behind(": fly there again.");
+  if (!advice_.empty()) text += " " + advice_;
+  return text;
+}
+
+std::string StatusBoard::photos() const {
+  return std::to_string(stored_) + " of " + std::to_string(taken_) + " photos stored" +
+         (missed_ > 0 ? ", " + std::to_string(missed_) + " missed" : "") +
+         (marked_ > 0 ? ", " + std::to_string(marked_) + " marked" : "") + ".";
+}
+
+std::string StatusBoard::room() const {
+  return "the disk has room for " + std::to_string(*free_photos_) + " photos of " +
+         std::to_string(planned_photos_) + "; move old flights to another disk.";
+}
+
 std::string StatusBoard::json() const {
   const std::lock_guard lock(mutex_);
-  nlohmann::ordered_json json = {{"sentence", sentence_locked()},
-                                 {"phase", name_of(phase_)},
+  nlohmann::ordered_json json = {{"time", time_now()},
+                                 {"pid", ::getpid()},
+                                 {"sentence", sentence_locked()},
+                                 {"phase", stopped_ ? "stopped" : name_of(phase_)},
                                  {"quality", fix_ ? static_cast<int>(fix_->quality) : 0},
                                  {"camera_streaming", streaming_},
                                  {"photos_taken", taken_},

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -18,6 +19,7 @@ namespace plumbline::service {
 namespace {
 
 constexpr int kLookEvery_ms = 100;
+constexpr std::chrono::seconds kShowEvery{1};  // what changes without being told at once
 constexpr std::size_t kMostClients = 16;
 
 Error cannot(const std::string& path) {
@@ -68,27 +70,53 @@ Result<int> listen_at(const std::string& path) {
   return error;
 }
 
+// Whole or not at all; not durable: it is of no use after a restart.
+Status write_whole(const std::string& path, const std::string& line) {
+  const std::string part = path + ".part";
+  errno = 0;
+  std::ofstream file(part);
+  file << line;
+  file.close();
+  if (file && std::rename(part.c_str(), path.c_str()) == 0) return Done{};
+  const std::string reason = std::strerror(errno);
+  std::remove(part.c_str());
+  return Error{"Cannot write the status file " + path + ": " + reason +
+               "; is its folder there, with room, and may this user write to it?"};
+}
+
 }  // namespace
 
 Result<std::unique_ptr<StatusServer>> StatusServer::start(const StatusBoard& board,
                                                           const std::string& socket_path,
-                                                          const std::string& file_path) {
+                                                          const std::string& file_path,
+                                                          FileEvent file_event) {
   const auto listener = listen_at(socket_path);
   if (!listener) return listener.error();
-  return std::unique_ptr<StatusServer>(new StatusServer(board, *listener, socket_path, file_path));
+  // Not before: the file of a daemon that runs is left to it.
+  if (!file_path.empty()) {
+    if (const Status written = write_whole(file_path, board.json() + '\n'); !written) {
+      if (*listener >= 0) ::close(*listener);
+      if (*listener >= 0) ::unlink(socket_path.c_str());
+      return written.error();
+    }
+  }
+  return std::unique_ptr<StatusServer>(
+      new StatusServer(board, *listener, socket_path, file_path, std::move(file_event)));
 }
 
 StatusServer::StatusServer(const StatusBoard& board, int listener, std::string socket_path,
-                           std::string file_path)
+                           std::string file_path, FileEvent file_event)
     : board_(board),
       listener_(listener),
       socket_path_(std::move(socket_path)),
       file_path_(std::move(file_path)),
+      file_event_(std::move(file_event)),
       thread_([this] { run(); }) {}
 
 StatusServer::~StatusServer() {
   stopping_ = true;
   thread_.join();
+  show();
   for (const int client : clients_) ::close(client);
   if (listener_ < 0) return;
   ::close(listener_);
@@ -96,35 +124,29 @@ StatusServer::~StatusServer() {
 }
 
 void StatusServer::run() {
+  using SteadyClock = std::chrono::steady_clock;
   std::uint64_t told = ~std::uint64_t{0};
-  std::string line;
+  SteadyClock::time_point shown;
   while (!stopping_) {
     pollfd waiting{listener_, POLLIN, 0};
     ::poll(&waiting, listener_ >= 0 ? 1 : 0, kLookEvery_ms);
     const std::uint64_t version = board_.version();
-    if (version != told) {
-      told = version;
-      line = board_.json() + '\n';
-      write_file(line);  // first: who is told a line finds it there
-      tell(line);
+    if (std::exchange(told, version) != version || SteadyClock::now() >= shown + kShowEvery) {
+      shown = SteadyClock::now();
+      show();
     }
-    if ((waiting.revents & POLLIN) != 0) admit(line);
+    if ((waiting.revents & POLLIN) != 0) admit();
   }
 }
 
-void StatusServer::admit(const std::string& line) {
-  const int client = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
-  if (client < 0) return;
-  const bool taken =
-      ::send(client, line.data(), line.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(line.size());
-  if (taken && clients_.size() < kMostClients) {
-    clients_.push_back(client);
-  } else {
-    ::close(client);
+void StatusServer::show() {
+  const std::string line = board_.json() + '\n';
+  if (!file_path_.empty()) {  // first: who is told a line finds it there
+    const Status written = write_whole(file_path_, line);
+    const bool was_good = std::exchange(file_is_good_, written.ok());
+    if (was_good && !written) file_event_(false, written.error().sentence);
+    if (!was_good && written) file_event_(true, "The status file is written again.");
   }
-}
-
-void StatusServer::tell(const std::string& line) {
   std::erase_if(clients_, [&](int client) {
     const ssize_t sent = ::send(client, line.data(), line.size(), MSG_NOSIGNAL);
     if (sent == static_cast<ssize_t>(line.size())) return false;
@@ -133,14 +155,17 @@ void StatusServer::tell(const std::string& line) {
   });
 }
 
-// Whole or not at all; not durable: it is of no use after a restart.
-void StatusServer::write_file(const std::string& line) const {
-  if (file_path_.empty()) return;
-  const std::string part = file_path_ + ".part";
-  std::ofstream file(part);
-  file << line;
-  file.close();
-  if (file) std::rename(part.c_str(), file_path_.c_str());
+void StatusServer::admit() {
+  const int client = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+  if (client < 0) return;
+  const std::string line = board_.json() + '\n';
+  const bool taken =
+      ::send(client, line.data(), line.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(line.size());
+  if (taken && clients_.size() < kMostClients) {
+    clients_.push_back(client);
+  } else {
+    ::close(client);
+  }
 }
 
 }  // namespace plumbline::service

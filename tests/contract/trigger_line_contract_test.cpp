@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "drivers/gpio/gpio_trigger_line.h"
+#include "drivers/patient_line.h"
 #include "drivers/posix/system_clock.h"
 #include "sim/sim_trigger_line.h"
 
@@ -25,6 +26,31 @@ class SimBench : public TriggerLineBench {
  private:
   sim::VirtualClock clock_{HostTime(100s)};
   sim::SimTriggerLine line_{clock_, 2ms};
+};
+
+// The same behind a line that waits for it.
+class PatientBench : public SimBench {
+ public:
+  TriggerLine& line() override { return patient_; }
+
+ private:
+  // What stands for the device: the bench's own line, lent.
+  class Lent : public TriggerLine {
+   public:
+    explicit Lent(TriggerLine& line) : line_(line) {}
+    ~Lent() override { line_.stop(); }
+    Result<Pulse> pulse() override { return line_.pulse(); }
+    Status listen(Sink sink) override { return line_.listen(std::move(sink)); }
+    void stop() override { line_.stop(); }
+
+   private:
+    TriggerLine& line_;
+  };
+
+  PatientLine patient_{[this]() -> Result<std::unique_ptr<TriggerLine>> {
+                         return {std::make_unique<Lent>(SimBench::line())};
+                       },
+                       clock()};
 };
 
 std::string setting(const char* name) {
@@ -77,6 +103,7 @@ class GpioBench : public TriggerLineBench {
 INSTANTIATE_TEST_SUITE_P(
     TriggerLines, TriggerLineContract,
     ::testing::Values(TriggerLineMaker{"Simulated", [] { return std::make_unique<SimBench>(); }},
+                      TriggerLineMaker{"Patient", [] { return std::make_unique<PatientBench>(); }},
                       TriggerLineMaker{"OfThisMachine",
                                        [] { return std::make_unique<GpioBench>(); }}),
     [](const auto& info) { return info.param.name; });

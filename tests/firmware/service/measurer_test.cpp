@@ -11,6 +11,7 @@
 #include <sstream>
 #include <vector>
 
+#include "edge/record/journal.h"
 #include "tests/firmware/ingest/temporary_folder.h"
 
 namespace plumbline::service {
@@ -39,10 +40,15 @@ class MeasuringProcess : public testing::Test {
     options_.program = program.string();
     Measurer::Events events;
     events.measured = [this](const Measurer::Measured& measured) {
-      keep("measured: " + measured.sentence +
+      keep((measured.was_left ? "left: " : "measured: ") + measured.sentence +
            (measured.figures ? " " + in_words(*measured.figures) : ""));
     };
-    events.failed = [this](const std::string& sentence) { keep("failed: " + sentence); };
+    events.failed = [this](const std::string&, const std::string& sentence) {
+      keep("failed: " + sentence);
+    };
+    events.begun = [this](const std::string& flight, const std::string& sentence) {
+      keep("begun: " + flight + ": " + sentence);
+    };
     measurer_.emplace(options_, events);
     return *measurer_;
   }
@@ -182,16 +188,153 @@ TEST_F(MeasuringProcess, IsNotedWhereItFindsItsInputBadOrIsNotThere) {
   EXPECT_EQ(said(2).size(), 2u);
 }
 
-TEST_F(MeasuringProcess, IsAskedForByAFileWhereAServiceRunsIt) {
-  options_.first_at = 1;
-  options_.request_file = (folder_.path() / "request").string();
-  Measurer& measurer = measurer_of("echo never");
-  measurer.stored("0001");
-  for (int k = 0; k < 100 && content_of(options_.request_file).empty(); ++k) {
+// Of a flight of so many photos that ended, or did not.
+void write_flight(const std::filesystem::path& folder, int photos, bool ended) {
+  std::filesystem::create_directories(folder / "photos");
+  for (int k = 1; k <= photos; ++k) {
+    std::ofstream(folder / ("photos/000" + std::to_string(k) + ".jpg")) << "x";
+  }
+  std::string journal = record::journal_head();
+  record::append_entry(record::Began{"plumblined", "", "boot", {}, {}}, 0, journal);
+  if (ended) record::append_entry(record::Ended{{}, "landed"}, 1, journal);
+  std::ofstream(folder / "flight.journal", std::ios::binary) << journal;
+}
+
+TEST_F(MeasuringProcess, MeasuresAFlightThatWasLeftWithoutItsResultOnce) {
+  write_flight(flight(), 3, true);
+  Measurer& measurer = measurer_of("echo 'Measured from 3 photos: there.'; exit 1");
+  const auto found = newest_flight(folder_.path(), 3);
+  ASSERT_TRUE(found);
+  measurer.found(*found, false);
+  const auto sentences = said(3);
+  ASSERT_EQ(sentences.size(), 3u);
+  EXPECT_EQ(sentences[0], "begun: 0001: It has no result yet, and is measured now.");
+  EXPECT_EQ(sentences[1], "left: Measured from 3 photos: there.");
+  EXPECT_THAT(sentences[2], HasSubstr("failed: The measuring process failed"));
+  std::this_thread::sleep_for(400ms);
+  EXPECT_EQ(said(0).size(), 3u) << "once";
+}
+
+TEST_F(MeasuringProcess, OfAFlightThatWasLeftIsBoundedInTime) {
+  write_flight(flight(), 3, true);
+  options_.longest = 1s;
+  measurer_of("exec sleep 60").found({"0001", 3, false}, false);
+  ASSERT_EQ(said(2).size(), 2u);
+  EXPECT_THAT(said(2)[1], HasSubstr("ended by signal 9"));
+}
+
+TEST_F(MeasuringProcess, OfAFlightThatWasLeftGivesWayToOneThatIsFlown) {
+  write_flight(flight(), 3, true);
+  std::filesystem::create_directory(folder_ / "0002");
+  // The one that was left takes long the first time.
+  Measurer& measurer = measurer_of(
+      "case $2 in *0001) if [ ! -e \"$2/begun\" ]; then touch \"$2/begun\"; exec sleep 60; fi;; "
+      "esac; echo Measured from 3 photos: $2.");
+  measurer.found({"0001", 3, false}, false);
+  ASSERT_THAT(said(1).back(), HasSubstr("begun: 0001"));
+  for (int k = 0; k < 2400 && !std::filesystem::exists(flight() + "/begun"); ++k) {
     std::this_thread::sleep_for(50ms);
   }
-  EXPECT_EQ(content_of(options_.request_file), flight() + "\n");
+  for (int photo = 1; photo <= 3; ++photo) measurer.stored("0002");
+  EXPECT_EQ(said(2).back(),
+            "measured: Measured from 3 photos: " + folder_.path().string() + "/0002.");
+  std::this_thread::sleep_for(300ms);
+  EXPECT_EQ(said(0).size(), 2u) << "while one is flown";
+  measurer.ended("0002");
+  const auto sentences = said(4);
+  ASSERT_EQ(sentences.size(), 4u);
+  EXPECT_THAT(sentences[2], HasSubstr("begun: 0001"));
+  EXPECT_EQ(sentences[3], "left: Measured from 3 photos: " + flight() + ".");
+}
+
+TEST_F(MeasuringProcess, FollowsAFlightThatIsGoneOnWithFromItsFirstNewPhoto) {
+  Measurer& measurer = measurer_of("echo Measured from 14 photos: a.");
+  measurer.found({"0001", 14, true}, true);
+  std::this_thread::sleep_for(400ms);
+  EXPECT_TRUE(said(0).empty()) << "its result is as new as its photos";
+  measurer.stored("0001");
+  EXPECT_EQ(said(1).size(), 1u);
+}
+
+TEST_F(MeasuringProcess, LeavesARecordingWithoutEndAndSaysSo) {
+  write_flight(flight(), 3, false);
+  measurer_of("echo never").found({"0001", 3, false}, false);
+  ASSERT_EQ(said(1).size(), 1u);
+  EXPECT_THAT(said(1)[0], HasSubstr("its recording has no end; plumbline measure " + flight()));
   EXPECT_FALSE(std::filesystem::exists(flight() + "/measure.log"));
+}
+
+// As plumbline measure puts it in place: whole, by a new name.
+void write_result(const std::string& flight, const std::string& figures) {
+  const std::filesystem::path result = std::filesystem::path(flight) / "result";
+  std::filesystem::create_directory(result);
+  std::ofstream(result / "new") << "{" << figures << ", \"unobservable\": [], \"point_sigmas\": "
+                                << "{\"median_e_m\": 0.05, \"median_n_m\": 0.04, "
+                                << "\"median_u_m\": 0.03}}";
+  std::filesystem::rename(result / "new", result / "summary.json");
+}
+
+class MeasuringService : public MeasuringProcess {
+ protected:
+  Measurer& measurer() {
+    options_.request_file = (folder_.path() / "request").string();
+    return measurer_of("echo never");
+  }
+  // Whether it is asked for the flight, within five seconds.
+  bool is_asked_for(const std::string& flight) {
+    for (int k = 0; k < 100; ++k) {
+      if (content_of(options_.request_file) == flight + "\n") return true;
+      std::this_thread::sleep_for(50ms);
+    }
+    return false;
+  }
+};
+
+TEST_F(MeasuringService, IsAskedByAFile) {
+  options_.first_at = 1;
+  measurer().stored("0001");
+  EXPECT_TRUE(is_asked_for(flight()));
+  EXPECT_FALSE(std::filesystem::exists(flight() + "/measure.log"));
+}
+
+TEST_F(MeasuringService, TellsItsResultsByWhatItLeavesInTheFlight) {
+  write_result(flight(), "\"photos_used\": 2, \"photos_given\": 2");  // an old one
+  Measurer& measurer = this->measurer();
+  for (int photo = 1; photo <= 3; ++photo) measurer.stored("0001");
+  ASSERT_TRUE(is_asked_for(flight()));
+  std::this_thread::sleep_for(400ms);
+  EXPECT_TRUE(said(0).empty()) << "what was there before it was asked";
+  write_result(flight(), "\"photos_used\": 3, \"photos_given\": 3, \"converged\": true");
+  const std::string report = flight() + "/result/report.html.";
+  EXPECT_EQ(said(1).back(), "measured: Measured from 3 photos: " + report +
+                                " Median sigma 5.0/4.0/3.0 cm east/north/up.");
+  measurer.stored("0001");
+  write_result(flight(), "\"photos_used\": 3, \"photos_given\": 4, \"converged\": false");
+  EXPECT_THAT(said(2).back(), HasSubstr("failed: The adjustment did not converge"));
+}
+
+TEST_F(MeasuringService, IsSaidToBeSilentAndAskedAgainAfterLanding) {
+  options_.longest = 1s;
+  Measurer& measurer = this->measurer();
+  for (int photo = 1; photo <= 3; ++photo) measurer.stored("0001");
+  ASSERT_EQ(said(1).size(), 1u);
+  EXPECT_THAT(said(1)[0],
+              HasSubstr("No result came within 1 s of the request in " + options_.request_file));
+  std::filesystem::remove(options_.request_file);
+  std::this_thread::sleep_for(400ms);
+  EXPECT_FALSE(std::filesystem::exists(options_.request_file));
+  measurer.ended("0001");
+  EXPECT_TRUE(is_asked_for(flight()));
+  write_result(flight(), "\"photos_used\": 3, \"photos_given\": 3");
+  EXPECT_THAT(said(2).back(), HasSubstr("measured: Measured from 3 photos"));
+}
+
+TEST_F(MeasuringService, IsAskedForAFlightThatWasLeft) {
+  write_flight(flight(), 3, true);
+  measurer().found({"0001", 3, false}, false);
+  EXPECT_TRUE(is_asked_for(flight()));
+  write_result(flight(), "\"photos_used\": 3, \"photos_given\": 3");
+  EXPECT_THAT(said(2).back(), HasSubstr("left: Measured from 3 photos"));
 }
 
 }  // namespace

@@ -10,7 +10,11 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <mutex>
 #include <nlohmann/json.hpp>
+#include <thread>
+#include <vector>
 
 #include "tests/firmware/ingest/temporary_folder.h"
 
@@ -57,6 +61,13 @@ class StatusShown : public testing::Test {
     ASSERT_TRUE(server) << server.error().sentence;
     server_ = std::move(*server);
   }
+  // The first line for which `holds`; of five seconds without a line none.
+  static nlohmann::json next_where(Client& client,
+                                   const std::function<bool(const nlohmann::json&)>& holds) {
+    nlohmann::json line = client.next();
+    while (line.is_object() && !holds(line)) line = client.next();
+    return line;
+  }
   nlohmann::json in_file() const {
     return nlohmann::json::parse(std::ifstream(file_), nullptr, false);
   }
@@ -80,6 +91,85 @@ TEST_F(StatusShown, IsALineAtOnceAndOneAfterEachChange) {
   const nlohmann::json file = in_file();
   ASSERT_TRUE(file.is_object());
   EXPECT_EQ(file["photos_stored"], 1);
+}
+
+TEST_F(StatusShown, GoesOnWithWhatChangesBetweenPhotos) {
+  Client client(socket_);
+  capture::FixHeard heard;
+  heard.fix.quality = FixQuality::kFixed;
+  heard.fix.height_ellipsoidal_m = 100;
+  board_.decided({HostTime{}, capture::PhaseChanged{capture::Phase::kFlying, 100.0}});
+  board_.heard({HostTime{}, heard});
+  const auto height_is = [](double height_m) {
+    return [=](const nlohmann::json& line) {
+      return line.value("height_above_take_off_m", -1.0) == height_m;
+    };
+  };
+  ASSERT_TRUE(next_where(client, height_is(0)).is_object());
+  heard.fix.height_ellipsoidal_m = 142;
+  board_.heard({HostTime{}, heard});
+  EXPECT_TRUE(next_where(client, height_is(42)).is_object());
+  EXPECT_EQ(in_file()["height_above_take_off_m"], 42);
+}
+
+TEST_F(StatusShown, TellsByItsTimeThatTheDaemonLives) {
+  Client client(socket_);
+  const nlohmann::json first = client.next();
+  ASSERT_EQ(first["pid"], ::getpid());
+  const auto later = [&](const nlohmann::json& line) { return line["time"] > first["time"]; };
+  const nlohmann::json line = next_where(client, later);
+  EXPECT_TRUE(line.is_object());
+  EXPECT_GE(in_file()["time"], line["time"]);
+}
+
+TEST_F(StatusShown, SaysAtTheEndThatItIsTheEnd) {
+  board_.decided({HostTime{}, capture::PhaseChanged{capture::Phase::kFlying, 100.0}});
+  Client client(socket_);
+  EXPECT_EQ(client.next()["phase"], "flying");
+  board_.stopped();
+  server_.reset();
+  const auto is_stopped = [](const nlohmann::json& line) { return line["phase"] == "stopped"; };
+  EXPECT_TRUE(next_where(client, is_stopped).is_object());
+  EXPECT_EQ(in_file()["phase"], "stopped");
+}
+
+TEST_F(StatusShown, RefusesAFileThatCannotBeWritten) {
+  const std::string nowhere = (folder_.path() / "no/status.json").string();
+  const std::string other = (folder_.path() / "other").string();
+  const auto server = StatusServer::start(board_, other, nowhere);
+  ASSERT_FALSE(server);
+  EXPECT_THAT(server.error().sentence, HasSubstr("status file " + nowhere));
+  EXPECT_THAT(server.error().sentence, HasSubstr("No such file or directory"));
+  EXPECT_THAT(server.error().sentence, HasSubstr("is its folder there"));
+  EXPECT_FALSE(std::filesystem::exists(other));
+}
+
+// Its folder is taken away and put back: that stands for a full disk, and works as root too.
+TEST_F(StatusShown, TellsOnceThatTheFileCannotBeWrittenAnyLonger) {
+  const auto place = folder_ / "place";
+  std::filesystem::create_directory(place);
+  std::mutex mutex;
+  std::vector<std::string> told;
+  const auto count = [&] {
+    const std::lock_guard lock(mutex);
+    return told.size();
+  };
+  auto server = StatusServer::start(board_, "", place / "status.json",
+                                    [&](bool good, const std::string& sentence) {
+                                      const std::lock_guard lock(mutex);
+                                      told.push_back((good ? "good: " : "bad: ") + sentence);
+                                    });
+  ASSERT_TRUE(server) << server.error().sentence;
+  std::filesystem::remove_all(place);
+  for (int k = 0; k < 100 && count() < 1; ++k) std::this_thread::sleep_for(50ms);
+  std::this_thread::sleep_for(2500ms);
+  ASSERT_EQ(count(), 1u);
+  EXPECT_THAT(told[0], HasSubstr("bad: Cannot write the status file"));
+  std::filesystem::create_directory(place);
+  for (int k = 0; k < 100 && count() < 2; ++k) std::this_thread::sleep_for(50ms);
+  server->reset();
+  ASSERT_EQ(told.size(), 2u);
+  EXPECT_THAT(told[1], HasSubstr("good: "));
 }
 
 TEST_F(StatusShown, IsTheSameForManyWhateverOneOfThemSays) {
