@@ -50,7 +50,9 @@ struct Camera {
   InteriorVector sigma = InteriorVector::Constant(kFree);
   // Where present it stands for `sigma`; rows of parameters held fixed are zero.
   std::optional<InteriorMatrix> covariance;
-  double line_time_us = 0;  // rolling shutter, 0 = global
+  // Rolling shutter: from each row to the one below it, 0 = global. A photo's pose is that of its
+  // middle row.
+  double line_time_us = 0;
   double line_time_sigma_us = 0;
 };
 

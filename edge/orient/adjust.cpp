@@ -13,6 +13,7 @@
 #include "edge/orient/group_fits.h"
 #include "edge/orient/image_correlation.h"
 #include "edge/orient/minimise.h"
+#include "edge/orient/no_solution.h"
 #include "edge/orient/rays.h"
 #include "edge/orient/solution_of.h"
 #include "edge/orient/stations.h"
@@ -158,11 +159,7 @@ class Adjustment {
       const auto terms = linearised_terms(network_, state_, datum_, terms_);
       const auto equations = normal_equations(network_, state_, 0, terms);
       const auto covariance = NetworkCovariance::of(network_, equations);
-      if (!covariance) {
-        return Error{
-            "The photos and positions given do not determine a solution: too few points "
-            "are seen in two photos or more, or all of them lie in one place."};
-      }
+      if (!covariance) return no_solution(network_, state_);
       doubted = doubts_.revise(network_, state_, datum_, *covariance, terms, terms_);
       if (doubted) {
         --round;

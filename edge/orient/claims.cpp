@@ -73,6 +73,22 @@ double share_of(const RowsTest& rows) {
   return rows.least_redundancy < kCarriedAlone ? kShareOfCarriers : 1;
 }
 
+std::string control_in_words(KnownBy known_by, const std::string& point) {
+  switch (known_by) {
+    case KnownBy::kFrameOrigin:
+      return "point " + point + " (origin of the local frame)";
+    case KnownBy::kFrameXAxis:
+      return "point " + point + " (x axis of the local frame)";
+    case KnownBy::kFramePlane:
+      return "point " + point + " (plane of the local frame)";
+    case KnownBy::kFlatGround:
+      return "the flat ground declared at point " + point;
+    case KnownBy::kSurvey:
+      break;
+  }
+  return "the control point " + point;
+}
+
 // One set of products for all claims of a term.
 class Reliabilities {
  public:
@@ -184,8 +200,10 @@ std::string in_words(const Claim& claim, const Network& network) {
       const Length& length = problem.lengths[at(claim.index)];
       return "the known length from " + point(length.point_a) + " to " + point(length.point_b);
     }
-    case ClaimKind::kControl:
-      return "the control point " + point(problem.control[at(claim.index)].point);
+    case ClaimKind::kControl: {
+      const Control& control = problem.control[at(claim.index)];
+      return control_in_words(control.known_by, point(control.point));
+    }
     case ClaimKind::kInterior:
       break;
   }

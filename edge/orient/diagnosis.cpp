@@ -24,9 +24,7 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-std::string in_degrees(double sigma_rad) {
-  return formatted("%.2g degrees", sigma_rad * kDegPerRad);
-}
+std::string in_degrees(double sigma_rad) { return two_digits(sigma_rad * kDegPerRad) + " degrees"; }
 
 // The sigma of the common compass, where headings are given: their mean's own prior.
 double heading_sigma(const Network& network) {
@@ -123,10 +121,9 @@ void judge_position(const Evidence& e, const CommonSigmas& s, const Options& opt
   } else if (s.position_m > options.max_position_sigma_m) {
     out.push_back(
         {"position",
-         formatted("The absolute position is known only to %.3g m (sigma): coordinates and "
-                   "heights are relative only. RTK positions of known height reference, or a "
-                   "control point, fix it.",
-                   s.position_m)});
+         "The absolute position is known only to " + two_digits(s.position_m) +
+             " m (sigma): coordinates and heights are relative only. RTK positions of known height "
+             "reference, or a control point, fix it."});
   } else if (std::max(gnss.offset_sigma_horizontal_m, gnss.offset_sigma_vertical_m) > 0 &&
              e.network.problem->control.empty()) {
     out.push_back(
@@ -225,15 +222,14 @@ std::vector<std::string> cautions(const Evidence& e, const CommonSigmas& sigmas)
       !e.network.problem->lengths.empty() || e.network.problem->control.size() >= 2;
   if (poor > kPoorStationM && std::isfinite(sigmas.scale) && !other_scale) {
     sentences.push_back(formatted(
-        "Scale (%.2g %%), azimuth, level and absolute position (%.2g m) rest only on GNSS "
-        "positions "
-        "of %.2g m sigma; ratios of lengths and the shape of the ground do not.",
-        100 * sigmas.scale, sigmas.position_m, poor));
+        "Scale (%.2g %%), azimuth, level and absolute position (%s m) rest only on GNSS "
+        "positions of %s m sigma; ratios of lengths and the shape of the ground do not.",
+        100 * sigmas.scale, two_digits(sigmas.position_m).c_str(), two_digits(poor).c_str()));
   } else if (poor > kPoorStationM && std::isfinite(sigmas.position_m) &&
              e.network.problem->control.empty()) {
     sentences.push_back(
-        formatted("The absolute position (%.2g m) rests only on GNSS positions of %.2g m sigma.",
-                  sigmas.position_m, poor));
+        formatted("The absolute position (%s m) rests only on GNSS positions of %s m sigma.",
+                  two_digits(sigmas.position_m).c_str(), two_digits(poor).c_str()));
   }
   return sentences;
 }

@@ -16,7 +16,8 @@ namespace {
 // 1968, external reliability).
 constexpr double kCarriedByOthers = 0.02;
 constexpr double kMovedUnseen = 10;
-constexpr double kStrangeGroup = 3;  // sigma0 of headings or attitudes
+constexpr double kTellingSigmas = 3;  // below, a size in sigmas would speak against itself
+constexpr double kStrangeGroup = 3;   // sigma0 of headings or attitudes
 
 std::string capital(std::string sentence) {
   if (!sentence.empty() && sentence[0] >= 'a' && sentence[0] <= 'z')
@@ -47,17 +48,41 @@ std::string subject_of(const Claim& claim, const Network& network) {
   return words;
 }
 
+// NaN where nothing tells it.
 double size_of(const ClaimTest& test, const Finished& f) {
   if (test.claim.kind == ClaimKind::kInterior)
     return f.network.problem->camera.interior[test.claim.index] -
            f.state.interior[test.claim.index];
+  if (test.rows.dof == 0) return std::nan("");
   return test.rows.gross_error.size() == 1 ? test.rows.gross_error[0]
                                            : test.rows.gross_error.norm();
+}
+
+// Set aside by what all together said, a claim may be the last to know some quantity well: what is
+// left can then not tell that it is wrong, or by how much.
+bool left_untold(const ClaimTest& test) {
+  return test.rows.dof == 0 || std::sqrt(test.rows.statistic) < kTellingSigmas;
+}
+
+std::string sentence_without_size(const Claim& claim, const Finished& f) {
+  const std::string what = capital(in_words(claim, f.network));
+  if (claim.kind != ClaimKind::kInterior)
+    return what +
+           " contradicts all the rest and was not used; without it the rest is too weak to tell by "
+           "how much it is off.";
+  const double found = f.state.interior[claim.index];
+  const double sigma = std::sqrt(std::max(0.0, f.covariance.common()(claim.index, claim.index)));
+  return what + formatted(
+                    " (%.1f px) contradicts photos and positions and was not used. Without it they "
+                    "ask for %.1f px, known to %.2g %% (sigma) only: check the camera file, its "
+                    "distortion too.",
+                    f.network.problem->camera.interior[claim.index], found, 100 * sigma / found);
 }
 
 std::string sentence_of(const ClaimTest& test, double size, const Finished& f) {
   const double sigmas = std::sqrt(test.rows.statistic);
   const std::string what = capital(in_words(test.claim, f.network));
+  if (left_untold(test)) return sentence_without_size(test.claim, f);
   switch (test.claim.kind) {
     case ClaimKind::kStation:
       return what + formatted(" disagrees with all others by %.2f m (%.1f sigma) and was not used.",
@@ -144,7 +169,12 @@ std::vector<Quantity> quantities(const Finished& f, const LocalFrameFit& frame) 
 }
 
 std::string figure(double value, const Quantity& q) {
-  return formatted("%.2g %s", value * q.factor, q.unit);
+  return two_digits(value * q.factor) + " " + q.unit;
+}
+
+std::string motion_in_words(double value, const Quantity& q) {
+  const bool full_turn = q.factor == kDegPerRad && value * q.factor > 180;
+  return full_turn ? "any angle" : figure(value, q);
 }
 
 // `unseen`: by how much an error of the claim may move it before a test finds that.
@@ -153,7 +183,7 @@ std::string sentence_of(const Quantity& q, const std::string& subject, double wi
   const double known = std::sqrt(std::max(0.0, q.variance));
   if (q.variance > kCarriedByOthers * without * without) {
     return std::string("The ") + q.words + " (sigma " + figure(known, q) + ") rests mostly on " +
-           subject + ": an error there may move it by " + figure(unseen, q) +
+           subject + ": an error there may move it by " + motion_in_words(unseen, q) +
            " before a test finds it; without it the " + q.words + " would be known to " +
            figure(without, q) + " only.";
   }

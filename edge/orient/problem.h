@@ -59,11 +59,16 @@ struct Length {
   double sigma_m = 0.001;
 };
 
+// What makes a ground point known: somebody surveyed it, or it is declared, as a point that defines
+// the local frame or one of flat ground.
+enum class KnownBy { kSurvey, kFrameOrigin, kFrameXAxis, kFramePlane, kFlatGround };
+
 // A ground point known before. A sigma of 0 is taken as 0.1 mm.
 struct Control {
   int point = 0;
   Eigen::Vector3d in_enu_m = Eigen::Vector3d::Zero();
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Identity();
+  KnownBy known_by = KnownBy::kSurvey;
 };
 
 // GNSS error = offset common to the flight + Gauss-Markov of time constant `correlation_s` + white
@@ -82,8 +87,8 @@ struct LeverArm {
   double sigma_m = 0;  // of each component, common to the flight
 };
 
-// The exposure of a photo happens this much later than the instant its station was taken for.
-// A sigma of 0 holds it fixed.
+// The exposure of a photo (of its middle row) happens this much later than the instant its station
+// was taken for: it had moved on by velocity * seconds. A sigma of 0 holds it fixed.
 struct Delay {
   double seconds = 0;
   double sigma_s = 0;

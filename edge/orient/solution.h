@@ -76,7 +76,7 @@ struct Blunder {
   std::string kind;      // station, length, control, focal_length, interior, exchanged_names
   std::string subject;   // the photo, the points or the parameter
   std::string sentence;  // with its figures
-  double size = 0;       // of the error, in the unit of the thing (m, px)
+  double size = 0;       // of the error, in the unit of the thing (m, px); NaN: nothing tells it
   double statistic = 0;  // and the critical value it exceeded
   double critical = 0;
 };

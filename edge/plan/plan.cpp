@@ -120,20 +120,22 @@ class Planner {
     if (out_.best) confirm(out_.advice[at(*out_.best)]);
   }
 
+  // Of those that leave ever fewer unobservable the last that does so with all ties, too.
   void choose_without_goal() {
+    std::vector<int> better;
     std::size_t fewest = out_.flight.unobservable.size();
     for (std::size_t i = 0; i < out_.advice.size(); ++i) {
-      Advice& advice = out_.advice[i];
-      if (advice.unobservable.size() >= fewest) continue;
-      fewest = advice.unobservable.size();
-      advice.reaches_goal = true;
-      out_.cheapest = static_cast<int>(i);
+      if (out_.advice[i].unobservable.size() >= fewest) continue;
+      fewest = out_.advice[i].unobservable.size();
+      better.push_back(static_cast<int>(i));
     }
-    if (out_.cheapest) {
-      Advice& chosen = out_.advice[at(*out_.cheapest)];
-      confirm(chosen);
-      chosen.reaches_goal = true;
+    for (; !better.empty(); better.pop_back()) {
+      Advice& advice = out_.advice[at(better.back())];
+      confirm(advice);
+      if (advice.unobservable.size() < out_.flight.unobservable.size()) break;
     }
+    for (const int i : better) out_.advice[at(i)].reaches_goal = true;
+    if (!better.empty()) out_.cheapest = better.back();
   }
 
   Flight flight_;

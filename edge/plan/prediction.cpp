@@ -244,8 +244,8 @@ Result<Prediction> predict(const Flight& flight, const Options& options, Detail 
   const Adjusted end = adjusted(model, options);
   if (!end.covariance) {
     return Error{
-        "The flight determines nothing: too little ground is seen in two photos, or all of them "
-        "are taken from one place. Climb further, or step aside."};
+        "The flight determines nothing: too little ground is seen in two photos, or they stand too "
+        "close together for their height and image sigma. Climb further, or step aside."};
   }
   return Reader(model, options, end).read();
 }

@@ -8,7 +8,7 @@
 
 namespace plumbline::plan {
 
-// "4.2 cm", "12 mm", "1.3 m"; "unknown" where empty.
+// "0.03 mm", "4.2 mm", "1.2 cm", "1.30 m"; "unknown" where empty.
 std::string length_in_words(std::optional<double> metres);
 
 // The plan in a sentence or two: what the flight will reach, and what to do about it. "Height

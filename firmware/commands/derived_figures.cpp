@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <optional>
 
 #include "edge/orient/derived.h"
+#include "firmware/ingest/number.h"
 
 namespace plumbline::commands {
 namespace {
@@ -65,29 +65,38 @@ constexpr Kind kVolume = {"volume", "m3", 3, SIZE_MAX,
                           }};
 
 // The level behind the @ of a volume, taken off `text`.
-std::optional<double> take_level(std::string& text) {
+Result<double> take_level(std::string& text) {
+  constexpr double kMostM = 100'000;  // no ground lies higher or deeper
   const std::size_t mark = text.rfind('@');
-  if (mark == std::string::npos) return std::nullopt;
-  char* end = nullptr;
-  const double level = std::strtod(text.c_str() + mark + 1, &end);
-  if (*end != '\0' || end == text.c_str() + mark + 1 || !std::isfinite(level)) return std::nullopt;
+  const auto level = ingest::parse_number(mark == std::string::npos ? "" : text.substr(mark + 1));
+  if (!level) return Error{"the level is missing; write A,B,C,...@LEVEL in metres."};
+  if (std::abs(*level) > kMostM) return Error{"the level is more than 100 km; give it in metres."};
   text.resize(mark);
-  return level;
+  return *level;
+}
+
+// Empty where there is none.
+std::string named_twice(std::vector<std::string> names) {
+  std::sort(names.begin(), names.end());
+  const auto found = std::adjacent_find(names.begin(), names.end());
+  return found == names.end() ? "" : *found;
 }
 
 Status add_figure(const Kind& kind, std::string text, deliver::Product& product) {
   const std::string option = std::string("--") + kind.name + " " + text;
   deliver::DerivedFigure figure{kind.name, {}, std::nullopt, std::nullopt, kind.unit};
   if (kind.name == kVolume.name) {
-    figure.level_m = take_level(text);
-    if (!figure.level_m)
-      return Error{option + ": the level is missing; write A,B,C,...@LEVEL in metres."};
+    const auto level = take_level(text);
+    if (!level) return Error{option + ": " + level.error().sentence};
+    figure.level_m = *level;
   }
   figure.points = split(text);
   if (figure.points.size() < kind.least_points || figure.points.size() > kind.most_points) {
     return Error{option + ": " + (kind.most_points == 2 ? "two points" : "three points or more") +
                  " are wanted, with commas between them."};
   }
+  if (const std::string name = named_twice(figure.points); !name.empty())
+    return Error{option + ": the point \"" + name + "\" is named twice."};
   const auto points = points_of(figure.points, option, product);
   if (!points) return points.error();
   const auto value = kind.compute(product.solution, *points, figure.level_m.value_or(0));

@@ -2,6 +2,7 @@
 #include "firmware/commands/orient_command.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -14,7 +15,9 @@
 #include "firmware/commands/adjustment_options.h"
 #include "firmware/commands/derived_figures.h"
 #include "firmware/commands/geo_inputs.h"
+#include "firmware/commands/number_check.h"
 #include "firmware/commands/run_report.h"
+#include "firmware/deliver/text.h"
 #include "firmware/ingest/case_folder.h"
 
 namespace plumbline::commands {
@@ -80,6 +83,14 @@ Result<Oriented> as_published(ingest::CaseFolder& input, const OrientArguments& 
   return Oriented{std::move(solution), *std::move(paper)};
 }
 
+// A drone that stands higher is a case in millimetres.
+std::string doubt_of_units(const orient::Summary& summary) {
+  constexpr double kHighestM = 10'000;
+  if (!std::isfinite(summary.common.scale) || !(summary.flying_height_m > kHighestM)) return {};
+  return "By what is known the photos were taken " + deliver::fixed(summary.flying_height_m, 0) +
+         " m above the ground that they show: give positions, lengths and control in metres.";
+}
+
 deliver::Product product_of(ingest::CaseFolder input, Oriented oriented,
                             const OrientArguments& arguments) {
   deliver::Product product;
@@ -92,6 +103,8 @@ deliver::Product product_of(ingest::CaseFolder input, Oriented oriented,
   if (!product.solution.frame) product.origin = geo_origin(input.frame);
   product.datum = arguments.datum;
   product.warnings = std::move(input.warnings);
+  if (std::string doubt = doubt_of_units(product.solution.summary); !doubt.empty())
+    product.warnings.push_back(std::move(doubt));
   product.input_sha256 = std::move(input.input_sha256);
   return product;
 }
@@ -116,14 +129,44 @@ int run_orient(const OrientArguments& arguments) {
   return deliver_result(product, report, out, arguments.json);
 }
 
+constexpr const char* kOrientFooter =
+    "Example: plumbline orient my_case --out my_case/result\n"
+    "         plumbline orient my_case --paper\n"
+    "CASE holds (CSV in UTF-8 with one header line, blank = unknown, e/n/u local):\n"
+    "  camera.toml       the camera before the adjustment, with [sigma] or [covariance]\n"
+    "  photos.csv        photo and what is known of each: e_m,n_m,u_m with sigma_e_m,sigma_n_m,\n"
+    "                    sigma_u_m and cov_en_m2,cov_eu_m2,cov_nu_m2; omega_deg,phi_deg,kappa_deg\n"
+    "                    with sigma_omega_deg, ...; heading_deg,sigma_heading_deg; time_s;\n"
+    "                    ve_m_s,vn_m_s,vu_m_s\n"
+    "  observations.csv  photo,point,u_px,v_px[,sigma_px]\n"
+    "and may hold\n"
+    "  lengths.csv       point_a,point_b,length_m[,sigma_m]\n"
+    "  control.csv       point and e_m,n_m,u_m[,sigma_e_m,sigma_n_m,sigma_u_m], or lat_deg,lon_deg "
+    "or\n"
+    "                    x_north_m,y_east_m,zone with height_ellipsoidal_m or "
+    "height_orthometric_m\n"
+    "  check.csv         the same columns: compared with the result, never used in it\n"
+    "  frame.csv         role,point (origin, x_axis, plane): results in the frame of these points\n"
+    "  lever_arm.csv     right_m,up_m,back_m[,sigma_m]: antenna minus camera, in the photo frame\n"
+    "  gnss.toml         offset_sigma_m = [h, v], correlation_s, correlated_sigma_m = [h, v],\n"
+    "                    delay_s, delay_sigma_s\n"
+    "delay_s is positive where the photos were taken later than their positions in photos.csv "
+    "hold\n"
+    "for: at the exposure the antenna had moved on by delay_s times its velocity.\n"
+    "line_time_us (camera.toml) is the time from each row of a photo to the one below it; "
+    "position,\n"
+    "attitude and time of a photo are those of its middle row.\n"
+    "Exit status: 0 good; 1 bad data, no solution, or one that did not converge; 2 wrong usage.";
+
 }  // namespace
 
 void add_orient(CLI::App& app, int& status) {
   auto arguments = std::make_shared<OrientArguments>();
   CLI::App* sub = app.add_subcommand(
       "orient", "the adjustment alone, from measured image coordinates, without images");
-  sub->add_option("CASE", arguments->folder,
-                  "folder with camera.toml, photos.csv, observations.csv and what else is known")
+  sub->add_option(
+         "CASE", arguments->folder,
+         "folder with camera.toml, photos.csv, observations.csv and what else is known (below)")
       ->required();
   sub->add_option("--out", arguments->out, "folder for the results (default: CASE/result)");
   sub->add_option("--geoid", arguments->geoid, "geoid model (.pgm or ISG) for orthometric heights");
@@ -134,14 +177,12 @@ void add_orient(CLI::App& app, int& status) {
                 "adjustment: one length in lengths.csv and frame.csv, nothing else");
   sub->add_option("--ground-flat", arguments->priors.ground_flat_m,
                   "with --paper: how flat the ground is declared to be, metres (sigma)")
-      ->check(CLI::PositiveNumber)
+      ->check(number_above_zero())
       ->capture_default_str();
   sub->add_flag("--json", arguments->json, "print summary.json instead of the table");
   add_derived_options(*sub, arguments->derived);
   add_adjustment_options(*sub, arguments->adjustment);
-  sub->footer(
-      "Example: plumbline orient my_case --out my_case/result\n"
-      "         plumbline orient my_case --paper");
+  sub->footer(kOrientFooter);
   sub->callback([arguments, &status] { status = run_orient(*arguments); });
 }
 

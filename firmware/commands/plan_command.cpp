@@ -12,6 +12,7 @@
 #include "edge/plan/plan.h"
 #include "firmware/commands/adjustment_options.h"
 #include "firmware/commands/commands.h"
+#include "firmware/commands/number_check.h"
 #include "firmware/commands/plan_output.h"
 #include "firmware/commands/run_report.h"
 #include "firmware/ingest/camera_toml.h"
@@ -74,16 +75,16 @@ void add_flight_options(CLI::App& sub, PlanArguments& arguments) {
                  "paper, standard or ice: a climb by name; what else is given stands for its part")
       ->check(CLI::IsMember({"paper", "standard", "ice"}));
   sub.add_option("--from", arguments.from_m, "lowest height above the ground, metres")
-      ->check(CLI::Range(1.0, 10'000.0));
+      ->check(number_within(1.0, 10'000.0));
   sub.add_option("--to", arguments.to_m, "highest height, metres")
-      ->check(CLI::Range(1.0, 10'000.0));
+      ->check(number_within(1.0, 10'000.0));
   sub.add_option("--step", arguments.step_m, "height between photos, metres (5)")
-      ->check(CLI::Range(0.05, 10'000.0));
+      ->check(number_within(0.05, 10'000.0));
   sub.add_option("--side-step", arguments.side_steps_m,
                  "metres aside at the top; two (10,10) make an L; 0: none")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::Range(0.0, 1000.0));
+      ->check(number_within(0.0, 1000.0));
 }
 
 void add_known_options(CLI::App& sub, PlanArguments& arguments) {
@@ -92,29 +93,29 @@ void add_known_options(CLI::App& sub, PlanArguments& arguments) {
                  "white sigma H,V of the positions, metres; without it only local sigmas are given")
       ->delimiter(',')
       ->expected(2)
-      ->check(CLI::Range(1e-5, 1000.0));
+      ->check(number_within(1e-5, 1000.0));
   sub.add_option("--heading-sigma", options.heading_sigma_deg,
                  "a compass with this sigma, degrees, its error common to all photos")
-      ->check(CLI::Range(0.001, 180.0));
+      ->check(number_within(0.001, 180.0));
   sub.add_option("--known-length", options.known_length_m,
                  "a length known on the ground, metres, centred on the foot")
-      ->check(CLI::Range(0.01, 10'000.0));
+      ->check(number_within(0.01, 10'000.0));
   sub.add_option("--length-sigma", options.length_sigma_m, "its sigma, metres")
-      ->check(CLI::Range(1e-5, 10.0))
+      ->check(number_within(1e-5, 10.0))
       ->capture_default_str();
   sub.add_option("--control-points", options.control_points,
                  "so many points of known position, far from the foot")
       ->check(CLI::Range(0, 100))
       ->capture_default_str();
   sub.add_option("--control-sigma", options.control_sigma_m, "their sigma, each axis, metres")
-      ->check(CLI::Range(1e-5, 10.0))
+      ->check(number_within(1e-5, 10.0))
       ->capture_default_str();
 }
 
 void add_scene_options(CLI::App& sub, PlanArguments& arguments) {
   plan::Options& options = arguments.options;
   sub.add_option("--sigma-px", options.sigma_px, "sigma of an image coordinate, pixels")
-      ->check(CLI::Range(1e-4, 1000.0))
+      ->check(number_within(1e-4, 1000.0))
       ->capture_default_str();
   sub.add_option("--ties", options.ties, "points seen in two photos or more")
       ->check(CLI::Range(10, 1'000'000))
@@ -122,14 +123,14 @@ void add_scene_options(CLI::App& sub, PlanArguments& arguments) {
   sub.add_option("--radius", options.radius_m,
                  "the ground that matters: metres around the foot (default: what the shorter side "
                  "of the picture sees from the middle height)")
-      ->check(CLI::Range(0.1, 10'000.0));
+      ->check(number_within(0.1, 10'000.0));
   sub.add_option("--tilt", options.tilt_deg, "how far the camera will tilt, RMS, degrees")
-      ->check(CLI::Range(0.0, 20.0))
+      ->check(number_within(0.0, 20.0))
       ->capture_default_str();
   sub.add_option("--wander", options.wander_m,
                  "how far the drone will stray from the line, RMS of each axis, metres; a straight "
                  "line promises no azimuth by luck")
-      ->check(CLI::Range(0.0, 100.0))
+      ->check(number_within(0.0, 100.0))
       ->capture_default_str();
 }
 
@@ -159,9 +160,9 @@ void add_plan(CLI::App& app, int& status) {
   add_known_options(*sub, *arguments);
   add_scene_options(*sub, *arguments);
   sub->add_option("--goal", arguments->options.goal_m, "sigma to reach, metres")
-      ->check(CLI::Range(1e-6, 1000.0));
+      ->check(number_within(1e-6, 1000.0));
   sub->add_option("--ceiling", arguments->options.ceiling_m, "no change flies higher, metres")
-      ->check(CLI::Range(1.0, 10'000.0))
+      ->check(number_within(1.0, 10'000.0))
       ->capture_default_str();
   sub->add_flag("--json", arguments->json, "print one JSON object instead of the table");
   add_adjustment_options(*sub, arguments->options.adjustment);

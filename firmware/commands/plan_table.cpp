@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <cmath>
 #include <cstdio>
 
 #include "edge/base/index.h"
@@ -110,7 +111,9 @@ std::string common_lines(const plan::Summary& summary, const plan::Options& opti
       "\nThe whole\n" + entry("azimuth", in_degrees(p.azimuth_deg)) +
       entry("level", in_degrees(p.tilt_deg)) +
       entry("focal length",
-            text("%.3g px (%.2g %%)", p.focal_length_px, 100 * p.focal_length_px / f)) +
+            std::isfinite(p.focal_length_px)
+                ? text("%.3g px (%.2g %%)", p.focal_length_px, 100 * p.focal_length_px / f)
+                : "unknown") +
       entry("scale", percent(p.scale)) + entry("position", length_in_words(p.position_m));
   if (summary.standard_accuracy) {
     out += entry("standard accuracy (eq. 6)",

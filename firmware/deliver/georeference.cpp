@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "firmware/deliver/georeference.h"
 
+#include <cmath>
 #include <utility>
 
 #include "edge/geodesy/plane_rectangular.h"
 #include "edge/geodesy/utm.h"
 
 namespace plumbline::deliver {
+namespace {
+
+constexpr int kNoZone = 0;  // UTM ends at 80 degrees south and 84 degrees north
+
+}  // namespace
 
 Georeference::Georeference(geodesy::LocalFrame frame, int plane_zone, int utm_zone, bool north)
     : frame_(std::move(frame)), plane_zone_(plane_zone), utm_zone_(utm_zone), north_(north) {}
@@ -24,8 +30,8 @@ Result<std::optional<Georeference>> Georeference::of(const Product& product) {
   if (plane_zone != 0)
     return std::optional<Georeference>(Georeference(*std::move(frame), plane_zone, 0, true));
   const auto utm = geodesy::utm_of(origin.latitude_deg, origin.longitude_deg);
-  if (!utm) return utm.error();
-  return std::optional<Georeference>(Georeference(*std::move(frame), 0, utm->zone, utm->north));
+  return std::optional<Georeference>(Georeference(*std::move(frame), 0, utm ? utm->zone : kNoZone,
+                                                  utm ? utm->north : origin.latitude_deg > 0));
 }
 
 Result<MapPlace> Georeference::place_of(const Eigen::Vector3d& in_enu_m) const {
@@ -42,6 +48,7 @@ Result<MapPlace> Georeference::plane_place(const geodesy::Geodetic& geodetic) co
 }
 
 Result<MapPlace> Georeference::utm_place(const geodesy::Geodetic& geodetic) const {
+  if (utm_zone_ == kNoZone) return MapPlace{geodetic, "", std::nan(""), std::nan("")};
   const auto utm =
       geodesy::utm_of(geodetic.latitude_deg, geodetic.longitude_deg, utm_zone_, north_);
   if (!utm) return utm.error();
@@ -52,6 +59,7 @@ std::string Georeference::grid_in_words() const {
   if (plane_zone_ != 0)
     return "Japan plane rectangular zone " + geodesy::plane_rectangular_zone_name(plane_zone_) +
            " (X north, Y east)";
+  if (utm_zone_ == kNoZone) return {};
   return "UTM zone " + std::to_string(utm_zone_) + (north_ ? "N" : "S");
 }
 

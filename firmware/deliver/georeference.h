@@ -11,7 +11,8 @@
 
 namespace plumbline::deliver {
 
-// A point of the local frame on the earth, and in the map grid of the product.
+// A point of the local frame on the earth, and in the map grid of the product: near a pole, beyond
+// UTM, there is none, the zone is empty and both coordinates are NaN.
 struct MapPlace {
   geodesy::Geodetic geodetic;
   std::string zone;  // "IX", or "54N" (UTM)
@@ -29,7 +30,7 @@ class Georeference {
   // Fails where the point is too far away for the zone.
   Result<MapPlace> place_of(const Eigen::Vector3d& in_enu_m) const;
 
-  // "Japan plane rectangular zone IX (X north, Y east)", "UTM zone 54N".
+  // "Japan plane rectangular zone IX (X north, Y east)", "UTM zone 54N"; empty where there is none.
   std::string grid_in_words() const;
 
  private:
@@ -39,7 +40,7 @@ class Georeference {
 
   geodesy::LocalFrame frame_;
   int plane_zone_;  // 0: UTM
-  int utm_zone_;
+  int utm_zone_;    // 0: none
   bool north_;
 };
 

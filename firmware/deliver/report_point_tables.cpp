@@ -145,7 +145,8 @@ std::string map_coordinate_table(const Product& product) {
   if (!earth || !*earth) return {};
   const std::vector<int> named = point_kinds(product).named;
   Table table;
-  table.caption = "Named points on the map: " + (*earth)->grid_in_words();
+  const std::string grid = (*earth)->grid_in_words();
+  table.caption = "Named points on the map: " + (grid.empty() ? "no grid near a pole" : grid);
   table.head = {"Point",        "X north|m",    "Y east|m", "Ellipsoidal height|m",
                 "Latitude|deg", "Longitude|deg"};
   table.note = cut_note(named.size());

@@ -40,7 +40,8 @@ std::string frame_words(const Product& product) {
                       ", " + fixed(origin.longitude_deg, 8) + kDegree + ", ellipsoidal height " +
                       fixed(origin.height_ellipsoidal_m, 3) + " m. ";
   const auto earth = Georeference::of(product);
-  if (earth && *earth) words += "Map: " + (*earth)->grid_in_words() + ". ";
+  const std::string grid = earth && *earth ? (*earth)->grid_in_words() : "";
+  if (!grid.empty()) words += "Map: " + grid + ". ";
   return words + "Datum: " + product.datum + ".";
 }
 

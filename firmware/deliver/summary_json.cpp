@@ -167,7 +167,8 @@ void add_frame(Json& json, const Product& product) {
         {"lon_deg", from_text(fixed(product.origin->longitude_deg, 10))},
         {"height_ellipsoidal_m", from_text(fixed(product.origin->height_ellipsoidal_m, 6))}};
   const auto earth = Georeference::of(product);
-  if (earth && *earth) json["map_grid"] = (*earth)->grid_in_words();
+  const std::string grid = earth && *earth ? (*earth)->grid_in_words() : "";
+  if (!grid.empty()) json["map_grid"] = grid;
   json["datum"] = clean_utf8(product.datum);
   json["frame"] = nullptr;
   if (const auto& roles = product.solution.frame) {

@@ -49,6 +49,7 @@ constexpr Aliases kAliases = {{{"f", "focal_length"},
                                {"p2", "tangential[1]"}}};
 
 constexpr int kMaxSidePx = 100'000;
+constexpr double kLeastEigenvalue = 1e-12;  // of a correlation matrix: else it has no inverse
 
 std::optional<int> interior_index(const std::string& name) {
   for (int i = 0; i < kInteriorCount; ++i) {
@@ -57,6 +58,18 @@ std::optional<int> interior_index(const std::string& name) {
       return i;
   }
   return std::nullopt;
+}
+
+std::string interior_names() {
+  std::string names;
+  for (const char* name : geometry::kInteriorNames)
+    names.append(names.empty() ? "" : ", ").append(name);
+  return names;
+}
+
+bool holds_nothing(const toml::table& table, const char* key) {
+  const toml::node* node = table.get(key);
+  return node == nullptr || (node->is_array() && node->as_array()->empty());
 }
 
 class Reader {
@@ -190,16 +203,18 @@ class Reader {
   std::vector<int> read_order(const toml::table& table) {
     const toml::array* order = table["order"].as_array();
     if (order == nullptr) {
-      fail(&table, "[covariance] has no list 'order' of the names of its rows.");
+      fail(&table, "[covariance] needs 'order', a list of the names of its rows, out of " +
+                       interior_names() + ".");
       return {};
     }
     std::vector<int> rows;
     for (const toml::node& node : *order) {
       const auto row = interior_index(node.value_or<std::string>(""));
       if (!row || std::ranges::count(rows, *row) > 0) {
-        fail(&node, in_quotes(node.value_or<std::string>("")) +
-                        " in the order of [covariance] is " +
-                        (row ? "there twice." : "not one of the names of a camera's entries."));
+        fail(&node,
+             in_quotes(node.value_or<std::string>("")) + " in the order of [covariance] is " +
+                 (row ? "there twice."
+                      : "not one of the names of a camera's entries: " + interior_names() + "."));
         return {};
       }
       rows.push_back(*row);
@@ -226,6 +241,7 @@ class Reader {
     const toml::table* table = section(file, "covariance");
     if (table == nullptr) return;
     notice_unknown(*table, {"order", "matrix"}, false);
+    if (holds_nothing(*table, "order") && holds_nothing(*table, "matrix")) return;
     const std::vector<int> rows = read_order(*table);
     const toml::array* matrix = (*table)["matrix"].as_array();
     if (matrix == nullptr || matrix->size() != rows.size()) {
@@ -265,8 +281,9 @@ class Reader {
       }
     }
     const double least = correlation.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff();
-    if (!(least > -1e-6)) {
-      return fail(where, "the matrix of [covariance] is not positive (a correlation beyond 1).");
+    if (!(least > kLeastEigenvalue)) {
+      return fail(where,
+                  "the matrix of [covariance] is not positive (a correlation of 1 or beyond).");
     }
     result_.camera.covariance = covariance;
     result_.camera.sigma = sigma;

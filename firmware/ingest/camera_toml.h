@@ -17,7 +17,9 @@ namespace plumbline::ingest {
 // [sigma] has the same keys (without name and size): the prior standard deviation of each entry.
 // 0 holds it fixed, missing leaves it free; in a list one entry alone may be left free with the
 // word "free": radial = [0.1, "free", 0]. Without [sigma] and [covariance] all ten are free.
-// line_time_us is no unknown of the adjustment: its sigma is 0 where missing.
+// line_time_us is the time from one row to the next, from the top down: row v is exposed
+// (v - (height_px - 1) / 2) line times after the middle row, for which the pose of a photo holds.
+// It is an unknown of the adjustment only where it has a sigma; that is 0 where missing.
 //
 // [covariance] holds order = [names] and matrix = [[...]], the joint covariance of those named, in
 // the units of the entries; it is used instead of [sigma]. An entry of a list has a name of its
@@ -25,7 +27,8 @@ namespace plumbline::ingest {
 //   focal_length_px principal_point_u_px principal_point_v_px affinity skew
 //   radial_1 radial_2 radial_3 tangential_1 tangential_2
 // and also principal_point_px[0], radial[2], tangential[1] or cu, cv, k1, k2, k3, p1, p2. What is
-// not in the list keeps its [sigma], uncorrelated, and is held fixed where it has none.
+// not in the list keeps its [sigma], uncorrelated, and is held fixed where it has none. A
+// [covariance] that holds nothing is as none.
 struct CameraFile {
   geometry::Camera camera;
   std::vector<std::string> notices;  // sentences: keys that were ignored

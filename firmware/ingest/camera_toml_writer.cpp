@@ -54,6 +54,7 @@ std::string covariance_section(const geometry::InteriorMatrix& covariance) {
   for (int i = 0; i < kInteriorCount; ++i) {
     if (covariance(i, i) > 0) rows.push_back(i);
   }
+  if (rows.empty()) return {};
   std::string order, matrix;
   for (const int row : rows) {
     order += (order.empty() ? "\"" : ", \"") +

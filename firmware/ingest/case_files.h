@@ -27,7 +27,7 @@ Result<orient::FrameRoles> case_frame_roles(const CsvTable& table, const PointNu
 Result<orient::LeverArm> case_lever_arm(const CsvTable& table, std::vector<std::string>& notices);
 
 // gnss.toml: offset_sigma_m = [h, v], correlation_s, correlated_sigma_m = [h, v]; delay_s and
-// delay_sigma_s, by which the exposures came after the time of their positions.
+// delay_sigma_s, by which the exposures came after the time of their positions (negative: before).
 struct CaseGnss {
   orient::GnssErrorModel errors;
   orient::Delay delay;

@@ -39,6 +39,9 @@ struct CaseFolder {
 //   offset_sigma_m = [3.0, 5.0]      # horizontal, vertical: common to the flight
 //   correlation_s = 30.0             # time constant of the slow part; needs time_s in photos.csv
 //   correlated_sigma_m = [1.0, 2.0]  # horizontal, vertical: its standard deviation
+//   delay_s = 0.02                   # the photos were taken so much later than their positions
+//   delay_sigma_s = 0.05             # hold for; needs ve_m_s,vn_m_s,vu_m_s in photos.csv
+// Position, attitude and time of a photo are those of its middle row (line_time_us, camera.toml).
 Result<CaseFolder> read_case(const std::filesystem::path& folder, const geodesy::Geoid* geoid);
 
 }  // namespace plumbline::ingest

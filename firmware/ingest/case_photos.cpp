@@ -45,7 +45,17 @@ class CasePhotoReader {
     return photo;
   }
 
-  std::vector<std::string> notices() const { return reader_.notices(); }
+  std::vector<std::string> notices() const {
+    std::vector<std::string> sentences = reader_.notices();
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (angles_without_sigma_[i] == 0) continue;
+      sentences.push_back("photos.csv: " + std::string(kAngles[i]) + " of " +
+                          std::to_string(angles_without_sigma_[i]) +
+                          (angles_without_sigma_[i] == 1 ? " photo" : " photos") +
+                          " was not used: it has no " + kAngleSigma[i] + " to say how good it is.");
+    }
+    return sentences;
+  }
 
  private:
   // All three or none.
@@ -101,8 +111,7 @@ class CasePhotoReader {
     }
   }
 
-  // Where an angle's sigma is blank nothing is known of it, and where the angle itself is blank
-  // too.
+  // Where an angle or its sigma is blank nothing is known of it.
   std::optional<orient::AttitudePrior> attitude(const CsvRow& row) {
     orient::AttitudePrior prior;
     bool any = false;
@@ -112,6 +121,7 @@ class CasePhotoReader {
       const auto at = static_cast<Eigen::Index>(i);
       prior.sigma_rad[at] = std::numeric_limits<double>::infinity();
       if (sigma && !angle) reader_.fail(row, std::string(kAngles[i]) + " is blank, its sigma not.");
+      if (angle && !sigma) ++angles_without_sigma_[i];
       if (!angle || !sigma) continue;
       prior.omega_phi_kappa_rad[at] = *angle * kRadPerDeg;
       prior.sigma_rad[at] = std::max(*sigma * kRadPerDeg, kLeastSigmaRad);
@@ -134,7 +144,21 @@ class CasePhotoReader {
 
   TableReader reader_;
   std::set<std::string> seen_;
+  std::array<int, 3> angles_without_sigma_{};
 };
+
+// To the last digit: a position that was filled in, not measured.
+bool all_in_one_place(const std::vector<orient::Photo>& photos) {
+  const orient::Photo* first = nullptr;
+  int stations = 0;
+  for (const orient::Photo& photo : photos) {
+    if (!photo.station) continue;
+    if (first == nullptr) first = &photo;
+    if (photo.station->antenna_in_enu_m != first->station->antenna_in_enu_m) return false;
+    ++stations;
+  }
+  return stations >= 2;
+}
 
 }  // namespace
 
@@ -149,6 +173,11 @@ Result<std::vector<orient::Photo>> case_photos(const CsvTable& table,
   }
   if (photos.empty()) return Error{table.name + ": there are no photos in it."};
   for (std::string& notice : reader.notices()) notices.push_back(std::move(notice));
+  if (all_in_one_place(photos)) {
+    notices.push_back(table.name +
+                      ": all photos have one and the same position; give the position of each, or "
+                      "leave it blank.");
+  }
   return photos;
 }
 

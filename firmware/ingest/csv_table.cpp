@@ -80,6 +80,9 @@ class Parser {
 
   Result<CsvTable> parse(std::string_view text) {
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    if (text.find('\n') == std::string_view::npos &&
+        trimmed(text).find('\r') != std::string_view::npos)
+      return Error{table_.name + ": lines end with CR alone; save the table with LF or CRLF."};
     while (!text.empty()) {
       ++line_;
       const std::size_t end = std::min(text.find('\n'), text.size());
@@ -111,6 +114,8 @@ class Parser {
   }
 
   Status take_header(std::vector<std::string> names) {
+    if (names.size() == 1 && names[0].find_first_of(";\t") != std::string::npos)
+      return bad("cells are separated by commas, not by semicolons or tabs.");
     for (const std::string& name : names) {
       if (!name.empty() && std::ranges::count(names, name) > 1) {
         return bad("the column " + in_quotes(name) + " is there twice.");

@@ -163,7 +163,9 @@ Result<KnownPoints> read_known_points(const std::filesystem::path& path,
     if (!known) return known.error();
     result.points.push_back(*std::move(known));
   }
-  if (result.points.empty()) return Error{table->name + ": there are no points in it."};
+  if (result.points.empty()) {
+    return Error{table->name + ": there are no points in it; add some, or do without the file."};
+  }
   result.notices = reader.notices();
   return result;
 }

@@ -67,6 +67,7 @@ Result<Lengths> read_lengths(const std::filesystem::path& path) {
   if (!table) return table.error();
   TableReader reader(*table);
   reader.require({"point_a", "point_b", "length_m"});
+  reader.expect({"sigma_m"});
   std::set<std::pair<std::string, std::string>> seen;
   Lengths result;
   for (const CsvRow& row : table->rows) {
@@ -84,6 +85,9 @@ Result<Lengths> read_lengths(const std::filesystem::path& path) {
   }
   if (reader.error()) return *reader.error();
   result.notices = reader.notices();
+  if (result.lengths.empty()) {
+    result.notices.push_back(table->name + ": there are no lengths in it.");
+  }
   return result;
 }
 

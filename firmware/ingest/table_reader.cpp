@@ -29,6 +29,10 @@ bool TableReader::has_all(const std::vector<std::string>& columns) {
          std::ssize(columns);
 }
 
+void TableReader::expect(const std::vector<std::string>& columns) {
+  asked_for_.insert(columns.begin(), columns.end());
+}
+
 void TableReader::require(const std::vector<std::string>& columns) {
   for (const std::string& column : columns) {
     if (has(column) || error_) continue;

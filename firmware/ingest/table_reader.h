@@ -21,6 +21,8 @@ class TableReader {
 
   bool has(const std::string& column);
   bool has_all(const std::vector<std::string>& columns);
+  // Known, though no row may ask for them.
+  void expect(const std::vector<std::string>& columns);
   // A fault where it is missing.
   void require(const std::vector<std::string>& columns);
 

@@ -51,6 +51,12 @@ Eigen::Vector3d prior_sigma(const FramedCase& framed, int point) {
   return {kUnknownM, kUnknownM, point == framed.roles.plane ? held : flat};
 }
 
+KnownBy known_by(const FrameRoles& roles, int point) {
+  if (point == roles.origin) return KnownBy::kFrameOrigin;
+  if (point == roles.x_axis) return KnownBy::kFrameXAxis;
+  return point == roles.plane ? KnownBy::kFramePlane : KnownBy::kFlatGround;
+}
+
 Problem final_problem(const FramedCase& framed, const std::vector<Eigen::Vector3d>& points) {
   Problem problem = bare_problem(framed);
   problem.lengths.push_back(framed.length);
@@ -59,7 +65,7 @@ Problem final_problem(const FramedCase& framed, const std::vector<Eigen::Vector3
     if (p == framed.roles.x_axis) known.y() = 0;
     if (p == framed.roles.origin) known.setZero();
     const Eigen::Matrix3d covariance = prior_sigma(framed, p).cwiseAbs2().asDiagonal();
-    problem.control.push_back({p, known, covariance});
+    problem.control.push_back({p, known, covariance, known_by(framed.roles, p)});
   }
   return problem;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "edge/base/index.h"
+#include "edge/plan/words.h"
 #include "tests/edge/plan/paper_camera.h"
 
 namespace plumbline::plan {
@@ -73,6 +74,47 @@ TEST(Plan, SaysThatNothingReachesAGoalBeyondThePositions) {
   EXPECT_THAT(summary.sentence, HasSubstr("Nothing tried reaches the goal"));
   for (const Advice& advice : summary.advice) {
     EXPECT_GE(larger(advice.worst), 0.99 * larger(summary.advice[at(*summary.best)].worst));
+  }
+}
+
+// A goal in metres, of local sigmas, says nothing of where the whole lies and which way it is
+// turned.
+TEST(Plan, SaysWhatStaysUnobservableWhereAGoalIsReachedOrCouldBe) {
+  Options options = paper_options(0.2);
+  options.rtk.reset();
+  options.known_length_m = 20;
+  for (const double goal_m : {10.0, 0.05, 0.0001}) {
+    options.goal_m = goal_m;
+    const Summary summary = planned(flight_of({70, 90, 5, {}}), options);
+    const std::size_t from = summary.sentence.find("ot observable");
+    ASSERT_NE(from, std::string::npos) << summary.sentence;
+    EXPECT_THAT(summary.sentence.substr(from), HasSubstr("azimuth")) << goal_m;
+    EXPECT_THAT(summary.sentence.substr(from), HasSubstr("position")) << goal_m;
+  }
+}
+
+TEST(Plan, NamesAGoalOfMicrometresAsItIs) {
+  EXPECT_EQ(length_in_words(1e-6), "0.001 mm");
+  EXPECT_EQ(length_in_words(0.00004), "0.04 mm");
+  EXPECT_EQ(length_in_words(0.0042), "4.2 mm");
+  EXPECT_EQ(length_in_words(0.042), "4.2 cm");
+  EXPECT_EQ(length_in_words(std::nullopt), "unknown");
+}
+
+TEST(Plan, AdvisesNothingThatLeavesAsMuchUnobservable) {
+  for (const double sigma_px : {0.1, 0.3, 1.0, 3.0}) {
+    for (const bool rtk : {false, true}) {
+      Options options = paper_options(sigma_px);
+      if (!rtk) options.rtk.reset();
+      const Summary summary = planned(flight_of({70, 90, 5, {}}), options);
+      if (!summary.cheapest) {
+        EXPECT_THAT(summary.sentence, HasSubstr("No single change")) << sigma_px;
+        continue;
+      }
+      EXPECT_LT(summary.advice[at(*summary.cheapest)].unobservable.size(),
+                summary.flight.unobservable.size())
+          << sigma_px;
+    }
   }
 }
 

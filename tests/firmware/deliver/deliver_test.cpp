@@ -124,6 +124,20 @@ TEST(PointsCsv, OutsideJapanTheGridIsUtm) {
   EXPECT_EQ(parsed(points_csv(product).value())[0].at("zone"), "32N");
 }
 
+// UTM ends at 84 degrees north and 80 south; latitude, longitude and height do not.
+TEST(PointsCsv, NearAPoleTheGridIsBlank) {
+  Product product = sample_product();
+  for (const double latitude_deg : {90.0, -89.9999, -80.5}) {
+    product.origin = GeoOrigin{latitude_deg, 8.54, 2835};
+    const auto text = points_csv(product);
+    ASSERT_TRUE(text.ok()) << text.error().sentence;
+    const auto row = parsed(*text)[0];
+    for (const char* column : {"zone", "x_north_m", "y_east_m"}) EXPECT_EQ(row.at(column), "");
+    EXPECT_NEAR(std::stod(row.at("lat_deg")), latitude_deg, 0.01);
+    EXPECT_NEAR(std::stod(row.at("height_ellipsoidal_m")), 2835, 100);
+  }
+}
+
 TEST(PointsCsv, NamesWithCommasQuotesAndHashesReadBack) {
   Product product = sample_product();
   product.problem.point_names[0] = "a, \"b\"";

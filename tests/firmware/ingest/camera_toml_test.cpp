@@ -13,7 +13,9 @@ namespace plumbline::ingest {
 namespace {
 
 using geometry::Camera;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::StartsWith;
 
 // The example of the format's description, word for word.
@@ -119,13 +121,42 @@ TEST(CameraToml, RefusesAMatrixThatIsNoCovariance) {
   EXPECT_EQ(covariance(two, "[[1, 0.5], [0.5, 1]]"), "");
   EXPECT_THAT(covariance(two, "[[1, 0.5], [0.4, 1]]"), HasSubstr("not symmetric"));
   EXPECT_THAT(covariance(two, "[[1, 1.5], [1.5, 1]]"), HasSubstr("not positive"));
+  EXPECT_THAT(covariance(two, "[[1, 2], [2, 4]]"), HasSubstr("not positive"));
+  EXPECT_EQ(covariance(two, "[[1, 0.999999], [0.999999, 1]]"), "");
   EXPECT_THAT(covariance(two, "[[-1, 0], [0, 1]]"), HasSubstr("negative"));
   EXPECT_THAT(covariance(two, "[[1, 0]]"), HasSubstr("as many rows"));
   EXPECT_THAT(covariance(two, "[[1], [1]]"), HasSubstr("as many numbers"));
   EXPECT_THAT(covariance(two, "[[nan, 0], [0, 1]]"), HasSubstr("finite"));
-  EXPECT_THAT(covariance("[\"focal_length_px\", \"zoom\"]", "[[1, 0], [0, 1]]"),
-              HasSubstr("'zoom'"));
+  EXPECT_THAT(
+      covariance("[\"focal_length_px\", \"zoom\"]", "[[1, 0], [0, 1]]"),
+      AllOf(HasSubstr("'zoom'"), HasSubstr("principal_point_u_px"), HasSubstr("tangential_2")));
   EXPECT_THAT(covariance("[\"skew\", \"skew\"]", "[[1, 0], [0, 1]]"), HasSubstr("twice"));
+}
+
+TEST(CameraToml, TakesACovarianceThatHoldsNothingForNone) {
+  const std::string camera =
+      "width_px = 100\nheight_px = 80\nfocal_length_px = 90\n[sigma]\nfocal_length_px = 2\n";
+  for (const char* const nothing : {"", "order = []\n", "order = []\nmatrix = []\n"}) {
+    const auto read = parse_camera_toml(camera + "[covariance]\n" + nothing, "camera.toml");
+    ASSERT_TRUE(read.ok()) << read.error().sentence;
+    EXPECT_FALSE(read->camera.covariance);
+    EXPECT_EQ(read->camera.sigma[geometry::kFocalLength], 2);
+    EXPECT_EQ(read->camera.sigma[geometry::kSkew], geometry::kFree);
+  }
+  EXPECT_THAT(sentence(camera + "[covariance]\nmatrix = [[1]]\n"),
+              AllOf(HasSubstr("'order'"), HasSubstr("focal_length_px, principal_point_u_px")));
+}
+
+TEST(CameraToml, WritesNoCovarianceWhereAllIsHeldFixed) {
+  Camera camera;
+  camera.width_px = 100;
+  camera.height_px = 80;
+  camera.interior[geometry::kFocalLength] = 90;
+  camera.covariance = geometry::InteriorMatrix::Zero();
+  EXPECT_THAT(camera_toml(camera), Not(HasSubstr("[covariance]")));
+  const auto read = parse_camera_toml(camera_toml(camera), "camera.toml");
+  ASSERT_TRUE(read.ok()) << read.error().sentence;
+  EXPECT_EQ(read->camera.sigma, geometry::InteriorVector(geometry::InteriorVector::Zero()));
 }
 
 Camera random_camera(std::mt19937_64& random, bool with_covariance) {

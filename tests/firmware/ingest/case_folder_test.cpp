@@ -13,6 +13,7 @@
 namespace plumbline::ingest {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -30,7 +31,7 @@ Files good_case() {
        "s,"
        "vu_m_s,omega_deg,phi_deg,kappa_deg,sigma_omega_deg,sigma_phi_deg,sigma_kappa_deg,"
        "heading_deg,sigma_heading_deg,time_s\n"
-       "1,0,0,70,0.01,0.01,0.02,1e-5,0,0,0.1,0.2,2.5,1,2,3,0.5,0.5,,10,2,0\n"
+       "1,0,0,70,0.01,0.01,0.02,1e-5,0,0,0.1,0.2,2.5,1,2,,0.5,0.5,,10,2,0\n"
        "2,0.5,0.1,75,0.01,0.01,0.02,,,,,,,,,,,,,,,2\n"
        "3,,,,,,,,,,,,,,,,,,,,,4\n"},
       {"observations.csv",
@@ -172,6 +173,42 @@ TEST(CaseFolder, WarnsOfWhatItLeavesOut) {
   EXPECT_THAT(result->warnings, Contains(HasSubstr("'Q' is seen in no photo")));
   EXPECT_THAT(result->warnings, Contains(HasSubstr("'colour'")));
   EXPECT_THAT(result->warnings, Contains(HasSubstr("'offest'")));
+}
+
+TEST(CaseFolder, SaysWhichAnglesHaveNoSigma) {
+  Files files = good_case();
+  files["photos.csv"] =
+      "photo,omega_deg,phi_deg,kappa_deg,sigma_kappa_deg\n1,1,,3,0.5\n2,1,,3,\n3,,,,\n";
+  const auto result = read(files);
+  ASSERT_TRUE(result.ok()) << result.error().sentence;
+  EXPECT_THAT(result->warnings, ElementsAre(AllOf(StartsWith("photos.csv: omega_deg of 2 photos"),
+                                                  HasSubstr("sigma_omega_deg")),
+                                            StartsWith("photos.csv: kappa_deg of 1 photo ")));
+  EXPECT_TRUE(std::isinf(result->problem.photos[0].attitude->sigma_rad[0]));
+  EXPECT_NEAR(result->problem.photos[0].attitude->sigma_rad[2], 0.5 * kRad, 1e-15);
+  EXPECT_FALSE(result->problem.photos[1].attitude);
+}
+
+TEST(CaseFolder, SaysThatAllPhotosHaveOnePosition) {
+  Files files = good_case();
+  files.erase("gnss.toml");
+  files["photos.csv"] =
+      "photo,e_m,n_m,u_m,sigma_e_m,sigma_n_m,sigma_u_m\n1,0,0,70,1,1,1\n2,0,0,70,1,1,1\n3,,,,,,\n";
+  EXPECT_THAT(read(files)->warnings, ElementsAre(HasSubstr("one and the same position")));
+  files["photos.csv"].replace(files["photos.csv"].find("2,0,0,70"), 8, "2,0,0,71");
+  EXPECT_THAT(read(files)->warnings, IsEmpty());
+}
+
+TEST(CaseFolder, SaysNothingFalseOfAFileWithAHeaderOnly) {
+  Files files = good_case();
+  files["lengths.csv"] = "point_a,point_b,length_m,sigma_m\n";
+  const auto result = read(files);
+  ASSERT_TRUE(result.ok()) << result.error().sentence;
+  EXPECT_THAT(result->warnings, ElementsAre("lengths.csv: there are no lengths in it."));
+  const std::string points = "point,e_m,n_m,u_m,sigma_e_m,sigma_n_m,sigma_u_m\n";
+  EXPECT_THAT(fault("control.csv", points), HasSubstr("there are no points in it"));
+  EXPECT_THAT(fault("check.csv", points), HasSubstr("there are no points in it"));
+  EXPECT_THAT(fault("frame.csv", "role,point\n"), HasSubstr("each of the roles"));
 }
 
 TEST(CaseFolder, IsPlacedOnTheEarthByControlWhereThePhotosAreNotPlacedAtAll) {

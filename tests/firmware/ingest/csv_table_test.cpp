@@ -44,6 +44,11 @@ TEST(CsvTable, SaysWhichLineIsWrong) {
   EXPECT_THAT(sentence("a,b\n\"x\"y,2\n"), HasSubstr("not closed"));
   EXPECT_THAT(sentence("a\n\xFF\n"), HasSubstr("UTF-8"));
   EXPECT_THAT(sentence(std::string("a\n1\0002\n", 6)), HasSubstr("UTF-8"));
+  EXPECT_THAT(sentence("a;b\n1;2\n"), StartsWith("t.csv:1: cells are separated by commas"));
+  EXPECT_THAT(sentence("a\tb\n1\t2\n"), HasSubstr("tabs"));
+  EXPECT_THAT(sentence("a,b\r1,2\r3,4\r"), HasSubstr("LF or CRLF"));
+  EXPECT_EQ(sentence("a;b,c\n1,2\n"), "");
+  EXPECT_EQ(sentence("a,b\r\n"), "");
   EXPECT_EQ(sentence("点\n測量\n"), "");
 }
 

@@ -187,6 +187,16 @@ TEST_F(WrongUsage, EndsWithTwoAndOneSentence) {
   expect_refused({"sim"}, "OUT is required", 2);
 }
 
+TEST_F(WrongUsage, OfAThresholdIsToldWhatIsWanted) {
+  for (const std::string command : {"measure", "orient"}) {
+    for (const std::string number : {"nan", "inf", "-1", "0"}) {
+      expect_refused({command, "case", "--max-azimuth-sigma", number},
+                     "--max-azimuth-sigma: '" + number + "' is not a number above 0", 2);
+    }
+  }
+  expect_refused({"orient", "case", "--paper", "--ground-flat", "nan"}, "--ground-flat: ", 2);
+}
+
 TEST_F(WrongUsage, HelpOfEveryCommandHasAnExample) {
   for (const std::string command : {"measure", "orient", "plan", "sim", "gnss"}) {
     const Outcome outcome = run_plumbline({command, "--help"}, folder);
@@ -195,6 +205,15 @@ TEST_F(WrongUsage, HelpOfEveryCommandHasAnExample) {
     EXPECT_EQ(outcome.err, "");
   }
   EXPECT_THAT(run_plumbline({"--help"}, folder).out, HasSubstr("Example: plumbline "));
+}
+
+TEST_F(WrongUsage, HelpOfOrientNamesTheFilesOfACaseAndTheStatuses) {
+  const std::string help = run_plumbline({"orient", "--help"}, folder).out;
+  for (const char* words :
+       {"camera.toml", "photos.csv", "observations.csv", "lengths.csv", "control.csv", "check.csv",
+        "frame.csv", "lever_arm.csv", "gnss.toml", "delay_s is positive where the photos were",
+        "middle row", "Exit status: 0 good; 1 "})
+    EXPECT_THAT(help, HasSubstr(words));
 }
 
 }  // namespace

@@ -45,6 +45,9 @@ TEST_F(Derived, AreRefusedWhereTheyCannotBeRead) {
   expect_refused({"orient", "case", "--distance", "P0,nowhere"}, "nowhere");
   expect_refused({"orient", "case", "--area", "P0,P1"}, "three points");
   expect_refused({"orient", "case", "--volume", "P0,P1,P2"}, "@LEVEL");
+  expect_refused({"orient", "case", "--volume", "P0,P1,P2@nan"}, "@LEVEL");
+  expect_refused({"orient", "case", "--volume", "P0,P1,P2@1e300"}, "more than 100 km");
+  expect_refused({"orient", "case", "--area", "P0,P1,P0"}, "\"P0\" is named twice");
 }
 
 TEST_F(Derived, ADelayNeedsVelocities) {

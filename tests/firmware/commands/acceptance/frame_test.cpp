@@ -131,6 +131,17 @@ TEST_F(Frame, PaperPrintsEveryStageAndItsPriors) {
   EXPECT_TRUE(fs::exists(folder / "case/result/points.csv"));
 }
 
+// Nobody gave a control point: what holds the result is the definition of the frame.
+TEST_F(Frame, PaperCallsThePointsOfItsFrameNoControlPoints) {
+  write_framed_case({.seed = 83, .stations = false, .side_step_m = 0, .length = true});
+  const Json summary = solved({"--paper"});
+  const std::string warnings = lines_of(summary["warnings"]);
+  EXPECT_THAT(warnings, Not(HasSubstr("control point")));
+  EXPECT_THAT(warnings,
+              HasSubstr("rests on point " + name(x_axis) + " (x axis of the local frame)"));
+  EXPECT_THAT(text_of(folder / "case/result/report.html"), Not(HasSubstr("the control point")));
+}
+
 TEST_F(Frame, PaperWithoutLengthOrFrameIsRefusedInASentence) {
   write_framed_case({.seed = 84, .stations = false, .side_step_m = 0});
   expect_refused({"orient", "case", "--paper"}, "lengths.csv");

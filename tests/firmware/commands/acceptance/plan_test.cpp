@@ -110,12 +110,42 @@ TEST_F(PlanCommand, EndsWithTwoAndOneSentenceOnWrongUsage) {
   expect_wrong({"--from", "80", "--to", "80"}, "one photo only");
   expect_wrong({"--from", "70"}, "both --from and --to");
   expect_wrong({"--profile", "other"}, "--profile");
-  expect_wrong({"--from", "nan", "--to", "90"}, "must be numbers");
+  expect_wrong({"--from", "nan", "--to", "90"}, "'nan' is not a number from 1 to 10000");
   expect_wrong({"--rtk", "0.01"}, "--rtk");
   expect_wrong({"--goal", "0"}, "--goal");
-  expect_wrong({"--goal", "nan"}, "goal");
-  expect_wrong({"--sigma-px", "nan"}, "image sigma");
+  expect_wrong({"--goal", "nan"}, "--goal: 'nan' is not a number from 0.000001 to 1000");
   expect_wrong({"--known-length", "900"}, "too long");
+}
+
+TEST_F(PlanCommand, TakesFiniteNumbersOnly) {
+  for (const char* option : {"--from",
+                             "--to",
+                             "--step",
+                             "--side-step",
+                             "--heading-sigma",
+                             "--known-length",
+                             "--length-sigma",
+                             "--control-points",
+                             "--control-sigma",
+                             "--sigma-px",
+                             "--ties",
+                             "--radius",
+                             "--tilt",
+                             "--wander",
+                             "--goal",
+                             "--ceiling",
+                             "--tilt-sigma",
+                             "--max-azimuth-sigma",
+                             "--max-tilt-sigma",
+                             "--max-focal-length-sigma",
+                             "--max-scale-sigma",
+                             "--max-height-sigma",
+                             "--max-position-sigma"}) {
+    for (const char* number : {"nan", "inf", "-1", "1e400", "many"}) {
+      expect_wrong({option, number}, std::string(option) + ": ");
+    }
+  }
+  expect_wrong({"--rtk", "0.005,nan"}, "--rtk: 'nan'");
 }
 
 TEST_F(PlanCommand, EndsWithOneWhereTheCameraCannotBeRead) {

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "edge/orient/no_solution.h"
+
+#include <string>
+#include <vector>
+
+#include "edge/orient/formatted.h"
+#include "edge/orient/rays.h"
+
+namespace plumbline::orient {
+namespace {
+
+// Fewer points fix no photo beside another.
+constexpr int kLeastPoints = 4;
+
+// Points by what became of them.
+struct Tally {
+  int in_two_photos = 0;
+  int undetermined = 0;  // by their own rays known too badly to be a measurement
+  int used = 0;          // two good rays or more
+  int rays = 0, used_rays = 0;
+};
+
+Tally tally(const Network& network) {
+  Tally out;
+  out.rays = static_cast<int>(network.rays.size());
+  for (int p = 0; p < network.points(); ++p) {
+    const int used = used_rays(network, p);
+    out.used_rays += used;
+    if (network.first_ray[at(p) + 1] - network.first_ray[at(p)] < 2) continue;
+    ++out.in_two_photos;
+    if (network.undetermined[at(p)]) ++out.undetermined;
+    if (used >= 2) ++out.used;
+  }
+  return out;
+}
+
+std::string of_all(int count, int all) {
+  return std::to_string(count) + " of " + std::to_string(all);
+}
+
+// Of a picture so wide, in pixels: the rest are slips of units.
+bool is_focal_length(double f, int width_px) {
+  constexpr double kWidest = 0.2, kNarrowest = 50;
+  return f > kWidest * width_px && f < kNarrowest * width_px;
+}
+
+bool stands_below_ground(const Network& network, const State& state) {
+  std::vector<double> ground, stations;
+  for (const Ray& ray : network.rays) ground.push_back(state.points[at(ray.point)].z());
+  for (const geometry::Pose& pose : state.poses) stations.push_back(pose.centre_m.z());
+  return !stations.empty() && !ground.empty() && upper_median(stations) < upper_median(ground);
+}
+
+Error contradiction(const Tally& t, const geometry::Camera& camera) {
+  const double f = camera.interior[geometry::kFocalLength];
+  const std::string few = "No solution: only " + of_all(t.used_rays, t.rays) +
+                          " image measurements agree with each other and with what is known. ";
+  if (!is_focal_length(f, camera.width_px)) {
+    return {few +
+            formatted("The camera's focal length of %.6g px fits no picture of %d px; give it "
+                      "in pixels.",
+                      f, camera.width_px)};
+  }
+  return {few +
+          "Check the names of photos and points, the pixels (u right, v down), the camera, whether "
+          "positions, lengths and control are in metres, and whether a sigma is too small."};
+}
+
+}  // namespace
+
+Error no_solution(const Network& network, const State& state) {
+  const Tally t = tally(network);
+  if (t.in_two_photos < kLeastPoints) {
+    return {"No solution: only " + std::to_string(t.in_two_photos) +
+            " points are seen in two photos or more; measure more points that photos share."};
+  }
+  if (t.used < kLeastPoints && 2 * t.undetermined > t.in_two_photos) {
+    return {"No solution: " + of_all(t.undetermined, t.in_two_photos) +
+            " points are known too badly by their rays to be measured. The photos stand too close "
+            "together, or sigma_px is too large."};
+  }
+  if (stands_below_ground(network, state)) {
+    return {
+        "No solution: by what is known the photos were taken from below the ground that they show. "
+        "Heights count upwards, and control points lie on the ground."};
+  }
+  if (t.used < kLeastPoints || 2 * t.used_rays < t.rays)
+    return contradiction(t, network.problem->camera);
+  return {
+      "No solution: what is given leaves some of the unknowns undetermined, or its sigmas differ "
+      "too much in size to be computed with. Check the sigmas and covariances of positions, "
+      "lengths "
+      "and camera, and whether all points lie on one line."};
+}
+
+}  // namespace plumbline::orient
