@@ -177,6 +177,7 @@ class Adjustment {
                 ? bent_covariance(network_, state_, datum_, terms_, *covariance)
                 : *covariance;
         if (drop_points_without_height(bars) > 0) continue;
+        if (agreement(network_).is_chance()) return contradiction(network_);
         return solution_of({network_, state_, terms_, *covariance, bars, fits, terms, datum_,
                             doubts_.rejected(), iterations_, converged_},
                            options_);

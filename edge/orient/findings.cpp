@@ -7,6 +7,7 @@
 #include "edge/base/units.h"
 #include "edge/orient/exchanged_names.h"
 #include "edge/orient/formatted.h"
+#include "edge/orient/no_solution.h"
 
 namespace plumbline::orient {
 namespace {
@@ -240,13 +241,30 @@ void add_contradictions(const std::vector<ClaimTest>& believed, const Finished& 
       "them, or fly again with more photos.");
 }
 
+bool has_station(const std::vector<ClaimTest>& tests) {
+  return std::any_of(tests.begin(), tests.end(),
+                     [](const ClaimTest& test) { return test.claim.kind == ClaimKind::kStation; });
+}
+
+// From above one place plan and focal length grow together: a focal length that is far off may be
+// believed against the one station that tells.
+void add_doubt_of_focal_length(const std::vector<ClaimTest>& rejected, Solution& solution) {
+  const auto& unobservable = solution.summary.unobservable;
+  const bool untested =
+      std::any_of(unobservable.begin(), unobservable.end(),
+                  [](const Unobservable& u) { return u.name == "focal_length"; });
+  if (!untested || !has_station(rejected)) return;
+  solution.summary.warnings.emplace_back(
+      "A GNSS position was not used, and the focal length was believed, which nothing else tests. "
+      "If it is wrong, the position may be right, and all distances are off by as much: check the "
+      "camera file, and try once with focal_length_px = \"free\" under [sigma].");
+}
+
 // Headings and attitudes are no claims that are tested. Where a station was found to be wrong
 // beside them, they may be what is.
 void add_doubt_of_headings(const std::vector<ClaimTest>& rejected, const Finished& f,
                            Solution& solution) {
-  const bool station = std::any_of(rejected.begin(), rejected.end(), [](const ClaimTest& test) {
-    return test.claim.kind == ClaimKind::kStation;
-  });
+  const bool station = has_station(rejected);
   const auto& photos = f.network.problem->photos;
   const bool told = std::any_of(photos.begin(), photos.end(), [](const Photo& photo) {
     return photo.heading.has_value() || photo.attitude.has_value();
@@ -273,6 +291,15 @@ void add_strange_groups(const Problem& problem, Solution& solution) {
   }
 }
 
+void add_minority(const Network& network, Solution& solution) {
+  const Agreement found = agreement(network);
+  if (!found.is_minority()) return;
+  solution.summary.warnings.push_back(
+      std::to_string(found.rays - found.used) + " of " + std::to_string(found.rays) +
+      " image measurements contradict the rest and were not used: what a minority agrees on may be "
+      "wrong as a whole. Check the camera, the names of points and the positions.");
+}
+
 }  // namespace
 
 void add_findings(const Finished& f, const LocalFrameFit& straight, Solution& solution) {
@@ -291,8 +318,10 @@ void add_findings(const Finished& f, const LocalFrameFit& straight, Solution& so
   check_stations(rejected, f, solution);
   add_unchecked(believed, f, straight, solution);
   add_doubt_of_headings(rejected, f, solution);
+  add_doubt_of_focal_length(rejected, solution);
   add_contradictions(believed, f, solution);
   add_strange_groups(*f.network.problem, solution);
+  add_minority(f.network, solution);
 }
 
 }  // namespace plumbline::orient

@@ -18,19 +18,23 @@ struct Tally {
   int in_two_photos = 0;
   int undetermined = 0;  // by their own rays known too badly to be a measurement
   int used = 0;          // two good rays or more
-  int rays = 0, used_rays = 0;
+  Agreement agreement;
 };
 
 Tally tally(const Network& network) {
   Tally out;
-  out.rays = static_cast<int>(network.rays.size());
   for (int p = 0; p < network.points(); ++p) {
-    const int used = used_rays(network, p);
-    out.used_rays += used;
-    if (network.first_ray[at(p) + 1] - network.first_ray[at(p)] < 2) continue;
+    const int rays = network.first_ray[at(p) + 1] - network.first_ray[at(p)];
+    if (rays < 2) continue;
     ++out.in_two_photos;
-    if (network.undetermined[at(p)]) ++out.undetermined;
+    const int used = used_rays(network, p);
     if (used >= 2) ++out.used;
+    if (network.undetermined[at(p)]) {
+      ++out.undetermined;
+    } else {
+      out.agreement.rays += rays;
+      out.agreement.used += used;
+    }
   }
   return out;
 }
@@ -52,9 +56,15 @@ bool stands_below_ground(const Network& network, const State& state) {
   return !stations.empty() && !ground.empty() && upper_median(stations) < upper_median(ground);
 }
 
-Error contradiction(const Tally& t, const geometry::Camera& camera) {
+}  // namespace
+
+Agreement agreement(const Network& network) { return tally(network).agreement; }
+
+Error contradiction(const Network& network) {
+  const geometry::Camera& camera = network.problem->camera;
   const double f = camera.interior[geometry::kFocalLength];
-  const std::string few = "No solution: only " + of_all(t.used_rays, t.rays) +
+  const Agreement found = agreement(network);
+  const std::string few = "No solution: only " + of_all(found.used, found.rays) +
                           " image measurements agree with each other and with what is known. ";
   if (!is_focal_length(f, camera.width_px)) {
     return {few +
@@ -66,8 +76,6 @@ Error contradiction(const Tally& t, const geometry::Camera& camera) {
           "Check the names of photos and points, the pixels (u right, v down), the camera, whether "
           "positions, lengths and control are in metres, and whether a sigma is too small."};
 }
-
-}  // namespace
 
 Error no_solution(const Network& network, const State& state) {
   const Tally t = tally(network);
@@ -85,8 +93,7 @@ Error no_solution(const Network& network, const State& state) {
         "No solution: by what is known the photos were taken from below the ground that they show. "
         "Heights count upwards, and control points lie on the ground."};
   }
-  if (t.used < kLeastPoints || 2 * t.used_rays < t.rays)
-    return contradiction(t, network.problem->camera);
+  if (t.used < kLeastPoints || t.agreement.is_minority()) return contradiction(network);
   return {
       "No solution: what is given leaves some of the unknowns undetermined, or its sigmas differ "
       "too much in size to be computed with. Check the sigmas and covariances of positions, "

@@ -53,13 +53,26 @@ class Cause : public FolderTest {
 };
 
 TEST_F(Cause, IsMeasurementsThatContradictEachOther) {
-  int row = 0;
-  change_rows("observations.csv", [&](Cells& cells) {
-    row = (row * 7919 + 4241) % 100'003;
-    cells[2] = std::to_string(row % 4000);
-    cells[3] = std::to_string(row * 31 % 2250);
-  });
-  expect_refused({"orient", "case"}, "agree with each other");
+  for (const int of_ten : {8, 10}) {
+    int row = 0, count = 0;
+    change_rows("observations.csv", [&](Cells& cells) {
+      row = (row * 7919 + 4241) % 100'003;
+      if (count++ % 10 >= of_ten) return;
+      cells[2] = std::to_string(row % 4000);
+      cells[3] = std::to_string(row * 31 % 2250);
+    });
+    expect_refused({"orient", "case"}, "agree with each other");
+  }
+}
+
+// A climb with one side-step: a focal length that is far off stretches the plan, and only the photo
+// aside tells.
+TEST_F(Cause, IsAFocalLengthThatOnlyOneStationTells) {
+  for (const char* f : {"4250", "20000", "1e5"}) {
+    SCOPED_TRACE(f);
+    replace_in_camera("focal_length_px", std::string("focal_length_px = ") + f);
+    EXPECT_THAT(warnings(), HasSubstr("the position may be right"));
+  }
 }
 
 TEST_F(Cause, IsASigmaOfPixelsThatIsTooSmall) {
