@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -38,6 +39,7 @@ struct Findings {
   bool flown = false;
   bool landed = false;                  // after that
   std::vector<std::string> not_stored;  // photos taken that never reached the disk
+  std::map<int, double> left_m;         // heights gone by without a photo, by number in the plan
 };
 
 std::string trouble_with_photo(const fs::path& flight, const record::Stored& stored) {
@@ -79,9 +81,13 @@ class Count {
   void operator()(const capture::Decision& decision) {
     if (const auto* taken = std::get_if<capture::PhotoTaken>(&decision.what)) {
       ++findings_.taken;
+      findings_.left_m.erase(taken->target.entry);
       if (taken->frame) taken_.insert(taken->number);
     }
     if (std::holds_alternative<capture::PhotoMissed>(decision.what)) ++findings_.missed;
+    if (const auto* passed = std::get_if<capture::HeightPassed>(&decision.what)) {
+      findings_.left_m[passed->target.entry] = passed->target.height_m;
+    }
     const auto* changed = std::get_if<capture::PhaseChanged>(&decision.what);
     if (changed == nullptr) return;
     const bool is_flying = changed->phase == capture::Phase::kFlying;
@@ -138,6 +144,12 @@ std::string photos_of(const Findings& f) {
          std::to_string(f.missed) + " missed";
 }
 
+std::vector<double> heights_left_m(const Findings& f) {
+  std::vector<double> heights_m;
+  for (const auto& [entry, height_m] : f.left_m) heights_m.push_back(height_m);
+  return heights_m;
+}
+
 nlohmann::ordered_json json_of(const Findings& f) {
   return {{"state", state_of(f)},
           {"entries", f.journal.entries},
@@ -154,6 +166,7 @@ nlohmann::ordered_json json_of(const Findings& f) {
           {"photos_stored", f.stored},
           {"photos_missed", f.missed},
           {"faults", f.faults},
+          {"heights_without_photo_m", heights_left_m(f)},
           {"not_stored", f.not_stored},
           {"broken_photos", f.broken_photos},
           {"unnamed_photos", f.unnamed_photos}};
@@ -165,6 +178,9 @@ void print(const Findings& f) {
               static_cast<unsigned long long>(f.journal.entries), f.duration_s, f.fixes, f.starts,
               f.starts == 1 ? "" : "s", flight_of(f).c_str());
   std::printf("%s, %d faults\n", photos_of(f).c_str(), f.faults);
+  for (const double height_m : heights_left_m(f)) {
+    std::printf("No photo at %g m: the drone went by.\n", height_m);
+  }
   for (const std::string& sentence : f.broken_photos) std::printf("%s\n", sentence.c_str());
   for (const std::string& number : f.not_stored) {
     std::printf("Photo %s was taken, and never reached the disk.\n", number.c_str());

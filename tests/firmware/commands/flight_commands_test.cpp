@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "drivers/posix/posix_storage.h"
+#include "edge/record/journal.h"
 #include "firmware/commands/check_command.h"
 #include "firmware/commands/replay_command.h"
 #include "firmware/commands/status_command.h"
@@ -187,6 +188,30 @@ TEST_F(FlightCommand, CheckSaysWhetherTheDroneLanded) {
   write_journal(whole.substr(0, whole.size() / 50));
   EXPECT_EQ(run({"check", flight().string(), "--json"}), 1);
   EXPECT_EQ(nlohmann::json::parse(printed)["landed"], false);
+}
+
+TEST_F(FlightCommand, CheckSaysWhichHeightsHaveNoPhoto) {
+  const auto height = [](int entry, double height_m) {
+    return capture::Target{capture::Reason::kHeight, entry, height_m};
+  };
+  capture::PhotoTaken late;
+  late.target = height(2, 16);
+  const std::vector<capture::Decided> decided = {
+      capture::PhaseChanged{capture::Phase::kFlying, 50.0}, capture::HeightPassed{height(1, 12.5)},
+      capture::HeightPassed{height(2, 16)}, late};
+  std::string journal = record::journal_head();
+  std::uint64_t sequence = 0;
+  record::append_entry(record::Began{}, sequence++, journal);
+  for (const auto& what : decided) {
+    record::append_entry(capture::Decision{HostTime{}, what}, sequence++, journal);
+  }
+  write_journal(journal);
+  (void)run({"check", flight().string()});
+  EXPECT_THAT(printed, HasSubstr("No photo at 12.5 m: the drone went by.\n"));
+  EXPECT_THAT(printed, ::testing::Not(HasSubstr("16 m")));
+  (void)run({"check", flight().string(), "--json"});
+  EXPECT_EQ(nlohmann::json::parse(printed)["heights_without_photo_m"],
+            nlohmann::json::array({12.5}));
 }
 
 TEST_F(FlightCommand, CheckSaysThatNoPhotoWasTaken) {
