@@ -13,6 +13,8 @@
 namespace plumbline::service {
 namespace {
 
+constexpr std::chrono::seconds kOfLate{5};  // then a fix says nothing of where the antenna is
+
 const char* name_of(capture::Phase phase) {
   static constexpr std::array<const char*, 4> kNames = {"waiting", "ready", "flying", "landed"};
   return kNames[static_cast<std::size_t>(phase)];
@@ -52,6 +54,7 @@ void StatusBoard::heard(const capture::Input& input) {
   if (const auto* heard = std::get_if<capture::FixHeard>(&input.what)) {
     const bool other = !fix_ || fix_->quality != heard->fix.quality;
     fix_ = heard->fix;
+    fix_came_ = now_();
     if (other) changed();
   } else if (const auto* camera = std::get_if<capture::CameraSeen>(&input.what)) {
     streaming_ = camera->streaming;
@@ -136,6 +139,15 @@ void StatusBoard::stopped() {
   changed();
 }
 
+const GnssFix* StatusBoard::fix_of_late() const {
+  return fix_ && now_() - fix_came_ < kOfLate ? &*fix_ : nullptr;
+}
+
+const char* StatusBoard::quality() const {
+  const GnssFix* fix = fix_of_late();
+  return fix != nullptr ? name_of(fix->quality) : "no position";
+}
+
 std::uint64_t StatusBoard::version() const {
   const std::lock_guard lock(mutex_);
   return version_;
@@ -183,7 +195,8 @@ std::string StatusBoard::sentence_locked() const {
 }
 
 std::string StatusBoard::waiting() const {
-  const bool placed = fix_ && fix_->quality != FixQuality::kNone;
+  const GnssFix* fix = fix_of_late();
+  const bool placed = fix != nullptr && fix->quality != FixQuality::kNone;
   const std::string text = placed ? "Waiting for the camera" : "Waiting for a position";
   return text + (lacks_space() ? "; " + room() : ".");
 }
@@ -195,8 +208,7 @@ std::string StatusBoard::ready() const {
       line->second.severity == record::Severity::kFault) {
     return "Not ready: no line to the shutter.";
   }
-  std::string text = std::string("Ready: ") + (fix_ ? name_of(fix_->quality) : "no position") +
-                     "; " + begins_when() + ".";
+  std::string text = std::string("Ready: ") + quality() + "; " + begins_when() + ".";
   if (free_photos_) text += " " + std::to_string(*free_photos_) + " photos fit on the disk.";
   return text;
 }
@@ -217,7 +229,7 @@ std::string StatusBoard::flying() const {
   if (last_photo_ && last_photo_->place) {
     text += ", last photo at " + metres(last_photo_->place->height_m);
   }
-  text += std::string(": ") + (fix_ ? name_of(fix_->quality) : "no position") + "; " + photos();
+  text += std::string(": ") + quality() + "; " + photos();
   if (needs_frames_ && !streaming_) text += " No camera sends frames: no photo is taken.";
   text += left_behind(": fly there again.");
   if (!advice_.empty()) text += " " + advice_;
@@ -237,11 +249,12 @@ std::string StatusBoard::room() const {
 
 std::string StatusBoard::json() const {
   const std::lock_guard lock(mutex_);
+  const GnssFix* fix = fix_of_late();
   nlohmann::ordered_json json = {{"time", time_now()},
                                  {"pid", ::getpid()},
                                  {"sentence", sentence_locked()},
                                  {"phase", stopped_ ? "stopped" : name_of(phase_)},
-                                 {"quality", fix_ ? static_cast<int>(fix_->quality) : 0},
+                                 {"quality", fix != nullptr ? static_cast<int>(fix->quality) : 0},
                                  {"camera_streaming", streaming_},
                                  {"photos_taken", taken_},
                                  {"photos_stored", stored_},
@@ -251,11 +264,11 @@ std::string StatusBoard::json() const {
                                  {"result", result_},
                                  {"flight", flight_},
                                  {"last_flight", last_flight_}};
-  if (fix_ && fix_->covariance_enu_m2) {
-    json["sigma_u_m"] = std::sqrt((*fix_->covariance_enu_m2)(2, 2));
+  if (fix != nullptr && fix->covariance_enu_m2) {
+    json["sigma_u_m"] = std::sqrt((*fix->covariance_enu_m2)(2, 2));
   }
-  if (fix_ && fix_->height_ellipsoidal_m && ground_height_m_) {
-    json["height_above_take_off_m"] = *fix_->height_ellipsoidal_m - *ground_height_m_;
+  if (fix != nullptr && fix->height_ellipsoidal_m && ground_height_m_) {
+    json["height_above_take_off_m"] = *fix->height_ellipsoidal_m - *ground_height_m_;
   }
   if (free_photos_) {
     json["free_photos"] = *free_photos_;

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "edge/capture/capture_plan.h"
 #include "edge/capture/decisions.h"
@@ -18,9 +21,13 @@ namespace plumbline::service {
 // What the daemon is doing, gathered from what happens, as one sentence and as JSON. Any thread.
 class StatusBoard {
  public:
-  // Whether photos come as frames of a camera that this computer reads; what begins a flight.
-  explicit StatusBoard(bool needs_frames = true, const capture::TakeOffOptions& take_off = {})
-      : needs_frames_(needs_frames), take_off_(take_off) {}
+  using Time = std::chrono::steady_clock::time_point;
+
+  // Whether photos come as frames of a camera that this computer reads; what begins a flight; and a
+  // clock, by which a fix grows old.
+  explicit StatusBoard(bool needs_frames = true, const capture::TakeOffOptions& take_off = {},
+                       std::function<Time()> now = std::chrono::steady_clock::now)
+      : needs_frames_(needs_frames), take_off_(take_off), now_(std::move(now)) {}
 
   void heard(const capture::Input& input);
   void decided(const capture::Decision& decision);
@@ -42,6 +49,8 @@ class StatusBoard {
 
  private:
   std::string sentence_locked() const;
+  const GnssFix* fix_of_late() const;
+  const char* quality() const;
   std::string left_behind(const char* what_then) const;
   std::string waiting() const;
   std::string ready() const;
@@ -54,10 +63,12 @@ class StatusBoard {
 
   const bool needs_frames_;
   const capture::TakeOffOptions take_off_;
+  const std::function<Time()> now_;
   mutable std::mutex mutex_;
   std::uint64_t version_ = 0;
   capture::Phase phase_ = capture::Phase::kWaiting;
   std::optional<GnssFix> fix_;
+  Time fix_came_;
   std::optional<double> ground_height_m_;
   bool streaming_ = false;
   bool pilot_seen_ = false;

@@ -30,6 +30,24 @@ TEST(StatusBoard, SaysWhatIsMissingWhileItWaits) {
   EXPECT_THAT(board.sentence(), HasSubstr("Waiting for the camera"));
 }
 
+TEST(StatusBoard, ClaimsNoPositionThatIsOfLongAgo) {
+  StatusBoard::Time now;
+  StatusBoard board(true, {}, [&now] { return now; });
+  board.decided(phase(capture::Phase::kFlying));
+  capture::FixHeard heard;
+  heard.fix.quality = FixQuality::kFixed;
+  heard.fix.height_ellipsoidal_m = 80;
+  board.heard({HostTime{}, heard});
+  now += std::chrono::seconds(4);
+  EXPECT_THAT(board.sentence(), HasSubstr("Flying: fixed;"));
+  EXPECT_EQ(nlohmann::json::parse(board.json())["height_above_take_off_m"], 30);
+  now += std::chrono::seconds(2);
+  EXPECT_THAT(board.sentence(), HasSubstr("Flying: no position;"));
+  const auto json = nlohmann::json::parse(board.json());
+  EXPECT_EQ(json["quality"], 0);
+  EXPECT_FALSE(json.contains("height_above_take_off_m"));
+}
+
 TEST(StatusBoard, SaysInFlightThatThereIsNoCamera) {
   StatusBoard board;
   board.decided(phase(capture::Phase::kFlying));
