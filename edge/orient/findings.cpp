@@ -250,9 +250,8 @@ bool has_station(const std::vector<ClaimTest>& tests) {
 // believed against the one station that tells.
 void add_doubt_of_focal_length(const std::vector<ClaimTest>& rejected, Solution& solution) {
   const auto& unobservable = solution.summary.unobservable;
-  const bool untested =
-      std::any_of(unobservable.begin(), unobservable.end(),
-                  [](const Unobservable& u) { return u.name == "focal_length"; });
+  const bool untested = std::any_of(unobservable.begin(), unobservable.end(),
+                                    [](const Unobservable& u) { return u.name == "focal_length"; });
   if (!untested || !has_station(rejected)) return;
   solution.summary.warnings.emplace_back(
       "A GNSS position was not used, and the focal length was believed, which nothing else tests. "
