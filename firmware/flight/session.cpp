@@ -184,7 +184,7 @@ void Session::keep(int number, Frame frame) {
     }
     if (disk_worker_) disk_worker_->wake();
     if (trouble.empty()) return;
-    queue_.push(LostOnTheWay{number, recorder.get(),
+    queue_.push(LostOnTheWay{number, recorder,
                              "Photo " + std::to_string(number) + " was lost: " + trouble});
   });
   if (encode_worker_) encode_worker_->wake();
@@ -210,7 +210,7 @@ void Session::take(Event event) {
     events_.ended(flight->folder);
   } else if (const auto* lost = std::get_if<LostOnTheWay>(&event)) {
     say(record::Severity::kFault, "photo", lost->sentence);
-    if (lost->flight == recorder_.get()) loop_->lose(lost->number);
+    if (lost->flight == recorder_) loop_->lose(lost->number);
   } else {
     const auto& message = std::get<record::Message>(event);
     recorder_->record(message);

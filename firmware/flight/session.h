@@ -97,7 +97,7 @@ class Session {
   // Decided and exposed, and then neither encoded nor taken by the disk's queue.
   struct LostOnTheWay {
     int number = 0;
-    const Recorder* flight = nullptr;  // only to compare
+    std::shared_ptr<Recorder> flight;
     std::string sentence;
   };
   using Event = std::variant<DeviceEvent, FromDisk, FlightEnded, LostOnTheWay, record::Message>;
