@@ -105,6 +105,16 @@ void Navigator::add_pulse(HostTime edge) {
   refit();
 }
 
+void Navigator::hear(const Input& input) {
+  if (const auto* started = std::get_if<Started>(&input.what)) {
+    set_wall(started->wall, input.now);
+  } else if (const auto* heard = std::get_if<FixHeard>(&input.what)) {
+    (void)add(heard->fix, heard->first_byte);
+  } else if (const auto* pulse = std::get_if<PulsePerSecond>(&input.what)) {
+    add_pulse(pulse->edge);
+  }
+}
+
 void Navigator::refit() {
   clock_ = arrivals_.estimate();
   if (!clock_) return;

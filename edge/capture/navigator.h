@@ -8,6 +8,7 @@
 #include "edge/base/gnss_fix.h"
 #include "edge/base/time.h"
 #include "edge/capture/capture_plan.h"
+#include "edge/capture/inputs.h"
 #include "edge/geodesy/local_frame.h"
 #include "edge/timing/antenna_predictor.h"
 #include "edge/timing/clock_fit.h"
@@ -55,6 +56,9 @@ class Navigator {
   // True where the fix carried a usable position.
   bool add(const GnssFix& fix, HostTime first_byte);
   void add_pulse(HostTime edge);
+
+  // What of a recorded input tells where the antenna is.
+  void hear(const Input& input);
 
   // Empty before the first positions, and when they are too long ago.
   std::optional<Motion> at(HostTime time) const;

@@ -67,13 +67,7 @@ class Playback {
 
   void hear(const capture::Input& input) {
     settle(input.now);
-    if (const auto* started = std::get_if<capture::Started>(&input.what)) {
-      navigator_->set_wall(started->wall, input.now);
-    } else if (const auto* heard = std::get_if<capture::FixHeard>(&input.what)) {
-      navigator_->add(heard->fix, heard->first_byte);
-    } else if (const auto* pulse = std::get_if<capture::PulsePerSecond>(&input.what)) {
-      navigator_->add_pulse(pulse->edge);
-    }
+    navigator_->hear(input);
   }
 
   void settle(HostTime now) {

@@ -45,7 +45,7 @@ class Before {
       options.clock.latency = options_.receiver_latency;
       navigator_.emplace(options);
     } else if (const auto* input = std::get_if<capture::Input>(&entry)) {
-      hear(*input);
+      if (navigator_ && !navigator_->frame()) navigator_->hear(*input);
     } else if (const auto* decision = std::get_if<capture::Decision>(&entry)) {
       const auto* taken = std::get_if<capture::PhotoTaken>(&decision->what);
       if (taken != nullptr) add(*taken);
@@ -55,17 +55,6 @@ class Before {
   std::vector<FlownPhoto> photos() { return std::move(photos_); }
 
  private:
-  void hear(const capture::Input& input) {
-    if (!navigator_ || navigator_->frame()) return;
-    if (const auto* started = std::get_if<capture::Started>(&input.what)) {
-      navigator_->set_wall(started->wall, input.now);
-    } else if (const auto* heard = std::get_if<capture::FixHeard>(&input.what)) {
-      navigator_->add(heard->fix, heard->first_byte);
-    } else if (const auto* pulse = std::get_if<capture::PulsePerSecond>(&input.what)) {
-      navigator_->add_pulse(pulse->edge);
-    }
-  }
-
   void add(const capture::PhotoTaken& taken) {
     if (!navigator_ || (taken.frame && !stored_.contains(taken.number))) return;
     if (auto photo = flown_photo(taken, navigator_->frame())) photos_.push_back(std::move(*photo));
