@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <string>
-#include <utility>
 #include <vector>
+
+#include "firmware/service/flight_names.h"
 
 namespace plumbline::service {
 namespace {
@@ -19,11 +19,6 @@ constexpr double kBytesPerPixel = 3.0 / 8;  // of a JPEG of much detail
 
 // The flight that is being recorded, and the one before it, which may still be measured.
 constexpr std::size_t kKept = 2;
-
-bool is_flight(const std::string& name) {
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  return name.size() >= 4 && std::all_of(name.begin(), name.end(), is_digit);
-}
 
 bool clean_result(Storage& storage, const std::string& folder) {
   const auto names = storage.list(folder);
@@ -62,12 +57,7 @@ std::int64_t photos_planned(const capture::CapturePlan& plan) {
 int clean_results(Storage& storage, const std::function<bool()>& is_enough) {
   const auto names = storage.list("");
   if (!names) return 0;
-  std::vector<std::string> flights;
-  std::copy_if(names->begin(), names->end(), std::back_inserter(flights), is_flight);
-  // "10000" comes after "9999".
-  std::sort(flights.begin(), flights.end(), [](const std::string& a, const std::string& b) {
-    return std::pair(a.size(), a) < std::pair(b.size(), b);
-  });
+  std::vector<std::string> flights = flights_among(*names);
   flights.resize(flights.size() - std::min(flights.size(), kKept));
   int cleaned = 0;
   for (const std::string& flight : flights) {

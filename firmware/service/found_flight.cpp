@@ -10,25 +10,20 @@
 #include <vector>
 
 #include "edge/record/journal.h"
+#include "firmware/service/flight_names.h"
 
 namespace plumbline::service {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Newest first: "10000" comes before "9999".
 std::vector<std::string> flights_in(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code trouble;
   for (const auto& entry : fs::directory_iterator(folder, trouble)) {
-    const std::string name = entry.path().filename().string();
-    const bool is_number = name.find_first_not_of("0123456789") == std::string::npos;
-    if (is_number && name.size() >= 4) names.push_back(name);
+    names.push_back(entry.path().filename().string());
   }
-  std::sort(names.begin(), names.end(), [](const std::string& a, const std::string& b) {
-    return std::pair(a.size(), a) > std::pair(b.size(), b);
-  });
-  return names;
+  return flights_among(std::move(names));
 }
 
 struct Photos {
@@ -60,11 +55,12 @@ bool is_measured(const fs::path& flight, fs::file_time_type newest_photo) {
 }  // namespace
 
 std::optional<FoundFlight> newest_flight(const std::string& flights, int least_photos) {
-  for (const std::string& name : flights_in(flights)) {
-    const fs::path folder = fs::path(flights) / name;
+  const std::vector<std::string> names = flights_in(flights);
+  for (auto name = names.rbegin(); name != names.rend(); ++name) {
+    const fs::path folder = fs::path(flights) / *name;
     const Photos photos = photos_in(folder);
     if (photos.count < least_photos) continue;
-    return FoundFlight{name, photos.count, is_measured(folder, photos.newest)};
+    return FoundFlight{*name, photos.count, is_measured(folder, photos.newest)};
   }
   return std::nullopt;
 }
