@@ -1,24 +1,17 @@
 // SPDX-License-Identifier: MIT
 // One simulated flight in real time through the real daemon, its drivers, and a measuring process.
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <cmath>
-#include <csignal>
 #include <cstdlib>
-#include <map>
-#include <thread>
 
 #include "tests/firmware/commands/acceptance/program.h"
+#include "tests/firmware/daemon/benched_daemon.h"
 
 namespace plumbline::acceptance {
 namespace {
 
-using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 
 // In real time no flight is like the one before, whatever the seed: of 50,000 one may fall outside.
@@ -29,54 +22,6 @@ double chi_square(double freedoms, double normal) {
   const double part = 2 / (9 * freedoms);
   return freedoms * std::pow(1 - part + normal * std::sqrt(part), 3);
 }
-
-// plumblined at the bench, until it has measured a flight or five minutes have gone; then ended as
-// a service ends it.
-class BenchedDaemon {
- public:
-  explicit BenchedDaemon(const fs::path& folder) : folder_(folder) {
-    process_ = ::fork();
-    if (process_ != 0) return;
-    const int log = ::open((folder / "log").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    ::dup2(log, STDERR_FILENO);
-    const std::string bench = folder / "bench";
-    ::execl(PLUMBLINE_DAEMON, PLUMBLINE_DAEMON, "--bench", bench.c_str(), nullptr);
-    ::_exit(127);
-  }
-
-  // The last status, with `photos` measured after landing.
-  Json wait_for_result(int most_seconds) {
-    Json status;
-    for (int k = 0; k < 10 * most_seconds; ++k) {
-      std::this_thread::sleep_for(100ms);
-      status = Json::parse(text_of(folder_ / "bench/status.json"), nullptr, false);
-      if (status.is_discarded() || status.value("last_flight", "").empty()) continue;
-      const std::string all = "Measured from " + std::to_string(photos_stored()) + " photos";
-      if (status.value("result", "").find(all) != std::string::npos) break;
-    }
-    return status;
-  }
-
-  // Its exit status.
-  int stop() {
-    ::kill(process_, SIGTERM);
-    int status = -1;
-    ::waitpid(process_, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  }
-
-  std::string log() const { return text_of(folder_ / "log"); }
-
- private:
-  std::size_t photos_stored() const {
-    std::error_code none;
-    const fs::directory_iterator files(folder_ / "bench/flights/0001/photos", none);
-    return static_cast<std::size_t>(std::distance(begin(files), end(files)));
-  }
-
-  fs::path folder_;
-  pid_t process_ = -1;
-};
 
 class FlightAtTheBench : public testing::Test {
  protected:
