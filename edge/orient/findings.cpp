@@ -271,8 +271,7 @@ void add_doubt_of_headings(const std::vector<ClaimTest>& rejected, const Finishe
   if (!station || !told) return;
   solution.summary.warnings.emplace_back(
       "A GNSS position was not used, and the headings or attitudes given were believed. If those "
-      "are "
-      "wrong, it may be right: try once without them.");
+      "are wrong, it may be right: try once without them.");
 }
 
 // What a group of observations says of itself: far from 1, and it contradicts all the rest.

@@ -97,8 +97,7 @@ Error no_solution(const Network& network, const State& state) {
   return {
       "No solution: what is given leaves some of the unknowns undetermined, or its sigmas differ "
       "too much in size to be computed with. Check the sigmas and covariances of positions, "
-      "lengths "
-      "and camera, and whether all points lie on one line."};
+      "lengths and camera, and whether all points lie on one line."};
 }
 
 }  // namespace plumbline::orient

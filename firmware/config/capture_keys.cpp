@@ -86,8 +86,7 @@ std::vector<Key> take_off_keys() {
            "What begins and ends a flight: \"height\" of the receiver; \"pilot\": the autopilot is "
            "armed; \"relative_altitude\": its height above where it was armed, by rise_m and "
            "landed_below_m. The last two need the link of [pilot]; while no autopilot is heard, "
-           "the "
-           "receiver's height decides."},
+           "the receiver's height decides."},
           {{"height", capture::TakeOffBy::kHeight},
            {"pilot", capture::TakeOffBy::kArmed},
            {"relative_altitude", capture::TakeOffBy::kRelativeAltitude}},
