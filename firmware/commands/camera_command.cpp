@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "firmware/commands/camera_shot.h"
+#include "firmware/commands/number_check.h"
 #include "firmware/commands/run_report.h"
 #include "firmware/deliver/durable_file.h"
 #include "firmware/devices_on_board.h"
@@ -213,10 +214,10 @@ CLI::App* add_shot(CLI::App& camera, const std::shared_ptr<CameraArguments>& arg
   shot->add_option("--size", arguments->size, "WIDTHxHEIGHT in pixels (default: the largest)");
   shot->add_option("--format", arguments->format, pixel_format_names());
   shot->add_option("--exposure", arguments->exposure_ms, "Longest exposure in ms (default: 2)")
-      ->check(CLI::PositiveNumber);
+      ->check(number_within(0.001, 10'000));
   shot->add_option("--gain", arguments->gain, "Fixed gain (default: the camera's choice)")
-      ->check(CLI::PositiveNumber);
-  shot->add_option("--rate", arguments->rate, "Frames a second")->check(CLI::PositiveNumber);
+      ->check(number_within(0.001, 1'000));
+  shot->add_option("--rate", arguments->rate, "Frames a second")->check(number_within(0.01, 1'000));
   shot->add_option("--out", arguments->out,
                    "JPEG file to write, or raw (.dng); must be new (default: shot.jpg)");
   shot->add_flag("--json", arguments->json, "What was taken as one JSON object");

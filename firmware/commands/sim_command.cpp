@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "edge/jpeg/jpeg.h"
+#include "firmware/commands/number_check.h"
 #include "firmware/commands/sim_flown.h"
 #include "firmware/commands/sim_output.h"
 #include "firmware/ingest/text_file.h"
@@ -133,18 +134,18 @@ int run_sim(const SimOptions& options) {
 
 void add_climb_options(CLI::App& sub, SimOptions& options) {
   sub.add_option("--from", options.from_m, "lowest height above the ground, metres")
-      ->check(CLI::Range(5.0, 1000.0));
-  sub.add_option("--to", options.to_m, "highest height, metres")->check(CLI::Range(5.0, 1000.0));
+      ->check(number_within(5, 1000));
+  sub.add_option("--to", options.to_m, "highest height, metres")->check(number_within(5, 1000));
   sub.add_option("--step", options.step_m, "height between photos, metres")
-      ->check(CLI::Range(0.1, 1000.0));
+      ->check(number_within(0.1, 1000));
   sub.add_option("--side-step", options.side_steps_m,
                  "metres aside at the top; several (10,10): each turned 90 degrees; 0: none")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->check(CLI::Range(0.0, 500.0));
+      ->check(number_within(0, 500));
   sub.add_option("--side-direction", options.side_direction_deg,
                  "azimuth of the first side-step, degrees; random by default")
-      ->check(CLI::Range(-360.0, 360.0));
+      ->check(number_within(-360, 360));
 }
 
 void add_gnss_options(CLI::App& sub, SimOptions& options) {
@@ -154,14 +155,14 @@ void add_gnss_options(CLI::App& sub, SimOptions& options) {
   sub.add_option("--rtk", options.rtk_m, "white sigma H,V of the positions, metres")
       ->delimiter(',')
       ->expected(2)
-      ->check(CLI::Range(0.0, 1000.0));
+      ->check(number_within(0, 1000));
   sub.add_flag("--no-gnss", options.no_gnss, "write no positions");
   sub.add_option(
          "--heading", options.heading_sigma_deg,
          "write the gimbal's yaw, by a compass with this sigma, degrees (2 where not given)")
       ->expected(0, 1)
       ->default_str("2")
-      ->check(CLI::Range(0.0, 180.0));
+      ->check(number_within(0, 180));
 }
 
 }  // namespace

@@ -197,6 +197,17 @@ TEST_F(WrongUsage, OfAThresholdIsToldWhatIsWanted) {
   expect_refused({"orient", "case", "--paper", "--ground-flat", "nan"}, "--ground-flat: ", 2);
 }
 
+TEST_F(WrongUsage, OfANumberOfASimulationOrAShotIsNoNumber) {
+  for (const std::string option : {"--from", "--to", "--step", "--side-step", "--side-direction"}) {
+    expect_refused({"sim", "out", option, "nan"}, option + ": 'nan' is not a number from ", 2);
+  }
+  expect_refused({"sim", "out", "--rtk", "nan,0.01"}, "--rtk: 'nan' is not a number from ", 2);
+  for (const std::string option : {"--exposure", "--gain", "--rate"}) {
+    expect_refused({"camera", "shot", option, "nan"}, option + ": 'nan' is not a number from ", 2);
+    expect_refused({"camera", "shot", option, "0"}, option + ": '0' is not a number from ", 2);
+  }
+}
+
 TEST_F(WrongUsage, HelpOfEveryCommandHasAnExample) {
   for (const std::string command : {"measure", "orient", "plan", "sim", "gnss"}) {
     const Outcome outcome = run_plumbline({command, "--help"}, folder);
