@@ -129,6 +129,7 @@ class Reader {
                   InteriorVector& values) {
     if (is_sigma && node.is_string() && *node.value<std::string>() == "free") {
       values[entry] = geometry::kFree;
+      said_free_.insert(entry);
       return;
     }
     const std::optional<double> value = number(node);
@@ -256,12 +257,23 @@ class Reader {
     if (!error_) take_covariance(covariance, table);
   }
 
-  void keep_other_sigmas(const std::vector<int>& rows, InteriorMatrix& covariance) const {
+  // What neither the matrix nor [sigma] names is held fixed.
+  void keep_other_sigmas(const std::vector<int>& rows, InteriorMatrix& covariance) {
+    std::string fixed;
     for (int i = 0; i < kInteriorCount; ++i) {
+      if (std::ranges::count(rows, i) > 0) continue;
       const double sigma = result_.camera.sigma[i];
-      if (!has_sigma_ || std::ranges::count(rows, i) > 0 || !std::isfinite(sigma)) continue;
-      covariance(i, i) = sigma * sigma;
+      if (has_sigma_ && (std::isfinite(sigma) || said_free_.contains(i))) {
+        covariance(i, i) = sigma * sigma;
+      } else {
+        fixed.append(fixed.empty() ? "" : ", ")
+            .append(geometry::kInteriorNames[static_cast<std::size_t>(i)]);
+      }
     }
+    if (fixed.empty()) return;
+    result_.notices.push_back(name_ + ": neither [covariance] nor [sigma] names " + fixed +
+                              ": held fixed. Give a sigma, or the word \"free\", to what is not "
+                              "known.");
   }
 
   void take_covariance(const InteriorMatrix& covariance, const toml::table* where) {
@@ -303,6 +315,7 @@ class Reader {
   std::string name_;
   CameraFile result_;
   bool has_sigma_ = false;
+  std::set<int> said_free_;  // by the word
   std::optional<Error> error_;
 };
 

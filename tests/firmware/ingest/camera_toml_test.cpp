@@ -110,6 +110,25 @@ TEST(CameraToml, TakesACovarianceInsteadOfSigmas) {
   EXPECT_EQ(covariance(geometry::kRadial1, geometry::kFocalLength), -0.27);
   EXPECT_EQ(covariance(geometry::kPrincipalU, geometry::kPrincipalU), 9);  // its [sigma] stays
   EXPECT_EQ(covariance(geometry::kSkew, geometry::kSkew), 0);              // has none: held fixed
+  ASSERT_EQ(read->notices.size(), 1u);
+  EXPECT_THAT(read->notices[0], HasSubstr("names skew, tangential_1, tangential_2:"));
+}
+
+TEST(CameraToml, LeavesFreeBesideACovarianceWhatIsSaidToBe) {
+  const auto read = parse_camera_toml(
+      "width_px = 100\nheight_px = 80\nfocal_length_px = 90\n"
+      "[sigma]\nskew = \"free\"\nradial = [0, \"free\", 0]\n"
+      "[covariance]\norder = [\"focal_length_px\", \"affinity\"]\nmatrix = [[1, 0], [0, 1]]\n",
+      "camera.toml");
+  ASSERT_TRUE(read.ok()) << read.error().sentence;
+  ASSERT_TRUE(read->camera.covariance);
+  const auto& covariance = *read->camera.covariance;
+  EXPECT_EQ(covariance(geometry::kSkew, geometry::kSkew), geometry::kFree);
+  EXPECT_EQ(covariance(geometry::kRadial2, geometry::kRadial2), geometry::kFree);
+  EXPECT_EQ(covariance(geometry::kRadial1, geometry::kRadial1), 0);
+  EXPECT_EQ(read->camera.sigma[geometry::kSkew], geometry::kFree);
+  ASSERT_EQ(read->notices.size(), 1u);
+  EXPECT_THAT(read->notices[0], Not(HasSubstr("skew")));
 }
 
 TEST(CameraToml, RefusesAMatrixThatIsNoCovariance) {
