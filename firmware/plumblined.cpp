@@ -144,7 +144,7 @@ std::unique_ptr<service::CameraFinder> find_camera(const config::Config& config,
 // Of lines that were missing: their faults come as their own events.
 void tell_of_returns(Devices& devices, service::Daemon& daemon) {
   const auto tell = [&daemon](const char* source) {
-    daemon.say(record::Severity::kInfo, source, "It is there.");
+    daemon.note(record::Severity::kInfo, source, "It is there.");
   };
   if (devices.late_release != nullptr) {
     devices.late_release->on_return([tell] {

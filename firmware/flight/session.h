@@ -82,7 +82,9 @@ class Session {
   // and the flight is left open, for the program may be started again before it lands.
   void close();
 
-  void hear(DeviceEvent event) { queue_.push(std::move(event)); }  // from any thread
+  // From any thread. A message is recorded and said in its turn: what no device says of itself.
+  void hear(DeviceEvent event) { queue_.push(std::move(event)); }
+  void hear(record::Message message) { queue_.push(std::move(message)); }
   const CaptureLoop& loop() const { return *loop_; }
   const Recorder& recorder() const { return *recorder_; }
 

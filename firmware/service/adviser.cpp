@@ -8,6 +8,7 @@
 #include "edge/plan/model.h"
 #include "firmware/ingest/camera_toml.h"
 #include "firmware/ingest/usual_lens.h"
+#include "firmware/service/calibration_size.h"
 #include "firmware/service/disk_space.h"
 
 namespace plumbline::service {
@@ -27,6 +28,42 @@ void keep_to(const capture::CapturePlan& capture, plan::Options& options) {
   if (capture.heights_m.empty() || capture.every) return;
   options.ceiling_m = capture.heights_m.back();
   options.floor_m = capture.heights_m.front();
+}
+
+// So many of each the planner takes and answers in under a second: photos of the climb, of a grid,
+// and heights to come.
+constexpr std::size_t kMostAsked = 60;
+
+// Every second, third, ... where there are too many; the first and the last are among them.
+template <typename T>
+std::vector<T> thinned(const std::vector<T>& all) {
+  if (all.size() <= kMostAsked) return all;
+  std::vector<T> some;
+  for (std::size_t k = 0; k < kMostAsked; ++k) {
+    some.push_back(all[k * (all.size() - 1) / (kMostAsked - 1)]);
+  }
+  return some;
+}
+
+bool is_of_grid(const FlownPhoto& photo) {
+  return photo.target.reason == capture::Reason::kTime ||
+         photo.target.reason == capture::Reason::kDistance;
+}
+
+// Of a long flight: the climb, thinned out, and of the grid the last photos, which see the same
+// ground. What the next ones will measure is as good.
+std::vector<FlownPhoto> asked_about(const std::vector<FlownPhoto>& photos) {
+  std::vector<std::size_t> climb, grid;
+  for (std::size_t k = 0; k < photos.size(); ++k)
+    (is_of_grid(photos[k]) ? grid : climb).push_back(k);
+  std::vector<std::size_t> asked = thinned(climb);
+  asked.insert(asked.end(),
+               grid.end() - static_cast<std::ptrdiff_t>(std::min(grid.size(), kMostAsked)),
+               grid.end());
+  std::sort(asked.begin(), asked.end());
+  std::vector<FlownPhoto> some;
+  for (const std::size_t k : asked) some.push_back(photos[k]);
+  return some;
 }
 
 double middle_of(std::vector<double> values) {
@@ -69,6 +106,7 @@ Result<AdviserOptions> adviser_options(const config::Config& config) {
   }
   auto file = ingest::read_camera_toml(config.camera.calibration);
   if (!file) return file.error();
+  if (const auto other = other_size(config.camera, file->camera)) return Error{*other};
   options.plan.camera = std::move(file->camera);
   return options;
 }
@@ -76,7 +114,8 @@ Result<AdviserOptions> adviser_options(const config::Config& config) {
 std::optional<Advice> advise(const std::vector<FlownPhoto>& photos, const AdviserOptions& options) {
   if (photos.size() < 2) return std::nullopt;
   const std::vector<double> to_come_m = heights_to_come(options.capture, photos);
-  const plan::Flight flight = flight_of(photos, to_come_m, options.latency_sigma_s);
+  const plan::Flight flight =
+      flight_of(asked_about(photos), thinned(to_come_m), options.latency_sigma_s);
   plan::Options asked = options.plan;
   asked.rtk = usual_fix(flight.taken_fixes);
   asked.delay_sigma_s = asked.rtk ? options.latency_sigma_s : 0;

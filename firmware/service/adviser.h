@@ -43,7 +43,7 @@ struct AdviserOptions {
 
 // As configured. The camera is that of camera.calibration with all that the file knows of it, else
 // a usual one; changes that the capture plan would not photograph are out of the question. Fails
-// where the calibration cannot be read.
+// where the calibration cannot be read, or is for pictures of another size.
 Result<AdviserOptions> adviser_options(const config::Config& config);
 
 // Empty where nothing can be told yet. Under a second.

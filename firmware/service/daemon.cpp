@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "firmware/ingest/text_file.h"
+#include "firmware/service/calibration_size.h"
 #include "firmware/service/disk_space.h"
 
 namespace plumbline::service {
@@ -65,6 +66,7 @@ Result<std::unique_ptr<Daemon>> Daemon::start(const config::Config& config, cons
                           });
   if (!server) return server.error();
   daemon->server_ = std::move(*server);
+  if (!config.camera.calibration.empty()) daemon->calibrated_ = advice->plan.camera;
   if (config.advice.enabled) daemon->advise(std::move(*advice));
   if (config.measure.enabled) daemon->measure();
   auto options = session_options(config, text);
@@ -135,6 +137,11 @@ void Daemon::say(record::Severity severity, const std::string& source,
   tell(source + ": " + sentence);
 }
 
+void Daemon::note(record::Severity severity, const std::string& source,
+                  const std::string& sentence) {
+  session_->hear(record::Message{devices_.clock.now(), severity, source, sentence});
+}
+
 void Daemon::tell(const std::string& sentence) {
   const std::lock_guard lock(told_mutex_);
   own_.told(sentence);
@@ -192,7 +199,10 @@ void Daemon::heard(const capture::Input& input) {
   bool is_due = !looked_ || input.now >= *looked_ + kLookAtDiskEvery;
   if (const auto* frame = std::get_if<capture::FrameSeen>(&input.what)) {
     const bool tells = frame->rows > 1;  // else the camera keeps its pictures
-    if (tells && std::exchange(rows_seen_, frame->rows) != frame->rows) is_due = true;
+    if (tells && std::exchange(rows_seen_, frame->rows) != frame->rows) {
+      is_due = true;
+      look_at_picture(frame->rows);
+    }
   } else if (std::holds_alternative<capture::PilotSeen>(input.what)) {
     is_due = true;  // an autopilot that was not there before, or is armed now
     lack_is_told_ = false;
@@ -229,6 +239,19 @@ void Daemon::look_at_space() {
   tell("disk: There is room for " + room + (lacks ? "." : " again."));
   if (!lacks || devices_.pilot == nullptr) return;
   devices_.pilot->say(PilotSeverity::kWarning, "Disk: room for " + room);
+}
+
+void Daemon::look_at_picture(int rows) {
+  if (!calibrated_) return;
+  const auto other = other_size(config_.camera, *calibrated_, rows);
+  const bool was_other = std::exchange(calibration_misfits_, other.has_value());
+  if (!other) {
+    if (was_other) note(record::Severity::kInfo, "calibration", "It is for pictures of this size.");
+    return;
+  }
+  note(record::Severity::kWarning, "calibration", *other);
+  if (devices_.pilot == nullptr) return;
+  devices_.pilot->say(PilotSeverity::kWarning, "Calibration is for another picture size");
 }
 
 void Daemon::run() {

@@ -40,14 +40,16 @@ class Daemon {
 
   // A camera that was found later.
   void hear(flight::DeviceEvent event) { session_->hear(std::move(event)); }
-  // For log and status, not for the flight's recording: what no device says of itself. Any thread.
-  void say(record::Severity severity, const std::string& source, const std::string& sentence);
+  // For log, status and the flight's recording: what no device says of itself. Any thread.
+  void note(record::Severity severity, const std::string& source, const std::string& sentence);
   const StatusBoard& board() const { return board_; }
 
  private:
   Daemon(const config::Config& config, flight::Devices devices, SingleInstance instance,
          DaemonEvents own);
 
+  // For log and status alone.
+  void say(record::Severity severity, const std::string& source, const std::string& sentence);
   void advise(AdviserOptions options);
   void remember();
   void measure();
@@ -66,6 +68,7 @@ class Daemon {
   Space space() const;
   void make_room();
   void look_at_space();
+  void look_at_picture(int rows);
 
   config::Config config_;
   flight::Devices devices_;
@@ -74,6 +77,8 @@ class Daemon {
   std::mutex told_mutex_;
   StatusBoard board_;
   std::optional<int> rows_seen_;  // of the camera's frames
+  std::optional<geometry::Camera> calibrated_;
+  bool calibration_misfits_ = false;
   bool flying_ = false;
   std::optional<HostTime> looked_;  // at the disk
   bool lack_is_told_ = false;       // of room on it

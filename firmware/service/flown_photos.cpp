@@ -75,9 +75,9 @@ bool is_positive(const Eigen::Matrix3d& covariance_m2) {
 // which is the same time for all.
 plan::PhotoFix fix_of_photo(const FlownPhoto& photo, double latency_sigma_s) {
   plan::PhotoFix fix{photo.covariance_m2, photo.velocity_m_s};
-  if (!is_positive(fix.covariance_m2)) {
-    fix.covariance_m2 =
-        gnss::usual_sigma_enu_m(photo.quality).cwiseAbs2().asDiagonal().toDenseMatrix();
+  if (photo.jumped || !is_positive(fix.covariance_m2)) {
+    const FixQuality quality = photo.jumped ? FixQuality::kNone : photo.quality;
+    fix.covariance_m2 = gnss::usual_sigma_enu_m(quality).cwiseAbs2().asDiagonal().toDenseMatrix();
     return fix;
   }
   const double speed_m_s = photo.velocity_m_s.norm();
@@ -90,7 +90,9 @@ plan::PhotoFix fix_of_photo(const FlownPhoto& photo, double latency_sigma_s) {
   return fix;
 }
 
-bool is_fixed(const FlownPhoto& photo) { return photo.quality == FixQuality::kFixed; }
+bool is_fixed(const FlownPhoto& photo) {
+  return photo.quality == FixQuality::kFixed && !photo.jumped;
+}
 
 }  // namespace
 
@@ -100,7 +102,8 @@ std::optional<FlownPhoto> flown_photo(const capture::PhotoTaken& taken,
   const capture::Place& place = *taken.place;
   return FlownPhoto{taken.target,       frame->geodetic_of(place.in_enu_m),
                     place.height_m,     place.covariance_m2,
-                    place.velocity_m_s, place.quality};
+                    place.velocity_m_s, place.quality,
+                    taken.marks.jumped};
 }
 
 std::vector<FlownPhoto> photos_before(Storage& storage, const std::string& flight,

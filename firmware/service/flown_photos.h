@@ -23,6 +23,7 @@ struct FlownPhoto {
   Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
   Eigen::Vector3d velocity_m_s = Eigen::Vector3d::Zero();
   FixQuality quality = FixQuality::kNone;
+  bool jumped = false;  // the position may be wrong, whatever its quality
 };
 
 // Empty where no place was known. `frame` is that of the run of the program which took it.
@@ -40,7 +41,8 @@ std::vector<double> heights_to_come(const capture::CapturePlan& plan,
                                     const std::vector<FlownPhoto>& photos);
 
 // As the planner takes it: photos taken with what is known of the place of each, about the last
-// one, and photos to come above or below that. Where not one has a fixed position, no position
+// one, and photos to come above or below that. A position that had jumped counts as one without
+// corrections does. Where not one has a fixed position, no position
 // counts: what is measured then is shape. `latency_sigma_s` is that of the receiver's latency,
 // which moves all photos alike; 0: pulses per second do without.
 plan::Flight flight_of(const std::vector<FlownPhoto>& photos, const std::vector<double>& to_come_m,

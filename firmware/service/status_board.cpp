@@ -185,8 +185,9 @@ std::string StatusBoard::sentence_locked() const {
     text = "Landed: " + photos() + left_behind(".");
   }
   if (phase_ != capture::Phase::kFlying && !result_.empty()) text += " " + result_;
-  for (const char* source : {"receiver", "camera", "autopilot", "disk", "trigger line",
-                             "shutter line", "pulse per second", "photo", "status"}) {
+  for (const char* source :
+       {"receiver", "camera", "calibration", "autopilot", "disk", "trigger line", "shutter line",
+        "pulse per second", "photo", "status"}) {
     const auto said = last_said_.find(source);
     if (said == last_said_.end()) continue;
     if (said->second.severity != record::Severity::kInfo) text += " " + said->second.sentence;

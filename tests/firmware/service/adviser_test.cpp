@@ -297,6 +297,58 @@ TEST(Advice, LetsOneFixedPhotoAtTheEndHideNoFloatOnes) {
               EndsWith(" 12 of 13 photos have no fixed position."));
 }
 
+// Its figures are those of a photo whose receiver has no corrections.
+TEST(Advice, TrustsNoPositionThatHasJumped) {
+  std::vector<FlownPhoto> photos = flown_up(70, 90);
+  capture::PhotoTaken aside = taken_at(10, 90);
+  photos.push_back(*flown_photo(aside, here()));
+  const auto trusted = advise(photos, calibrated());
+  aside.marks.jumped = true;
+  photos.back() = *flown_photo(aside, here());
+  const auto jumped = advise(photos, calibrated());
+  aside.marks.jumped = false;
+  aside.place->quality = FixQuality::kNone;
+  aside.place->covariance_m2.setZero();
+  photos.back() = *flown_photo(aside, here());
+  const auto alone = advise(photos, calibrated());
+  ASSERT_TRUE(trusted && jumped && alone);
+  EXPECT_THAT(jumped->sentence, EndsWith("1 of 6 photos have no fixed position."));
+  EXPECT_EQ(jumped->sentence, alone->sentence);
+  EXPECT_NE(jumped->short_text, trusted->short_text);
+}
+
+// An ice survey of an hour, every ten seconds: what its last ten minutes tell.
+TEST(Advice, IsGivenForAFlightOfHundredsOfPhotos) {
+  std::vector<FlownPhoto> photos;
+  for (int k = 0; k < 360; ++k) {
+    capture::PhotoTaken taken = taken_at(20.0 * (k % 30), 50);
+    taken.place->in_enu_m.y() = 20.0 * (k / 30);
+    taken.target = {capture::Reason::kTime, -1, 0};
+    photos.push_back(*flown_photo(taken, here()));
+  }
+  AdviserOptions options = calibrated();
+  options.capture.heights_m.clear();
+  options.capture.every = std::chrono::seconds(10);
+  const auto advice = advise(photos, options);
+  const auto last = advise({photos.end() - 60, photos.end()}, options);
+  ASSERT_TRUE(advice && last);
+  EXPECT_EQ(advice->sentence, last->sentence);
+}
+
+TEST(Advice, IsGivenForAClimbOfHundredsOfPhotos) {
+  AdviserOptions options = calibrated();
+  options.capture.heights_m.clear();
+  for (int k = 0; k <= 600; ++k) options.capture.heights_m.push_back(30 + 0.1 * k);
+  std::vector<FlownPhoto> photos;
+  for (int k = 0; k < 300; ++k) {
+    photos.push_back(flown_at(0, 30 + 0.1 * k));
+    photos.back().target.entry = k;
+  }
+  const auto advice = advise(photos, options);
+  ASSERT_TRUE(advice);
+  EXPECT_THAT(advice->sentence, AllOf(StartsWith("So far height"), HasSubstr("at the top")));
+}
+
 TEST(Advice, MeasuresShapeAloneWithoutAnyFixedPosition) {
   std::vector<FlownPhoto> photos = flown_up(30, 90);
   for (FlownPhoto& photo : photos) make_float(photo);
@@ -362,6 +414,19 @@ TEST_F(ConfiguredAdviser, KnowsTheLatencyWherePulsesPerSecondTellIt) {
   EXPECT_EQ(adviser_options(config_)->latency_sigma_s, 0.03);
   config_.receiver.pps = "/dev/pps0";
   EXPECT_EQ(adviser_options(config_)->latency_sigma_s, 0);
+}
+
+TEST_F(ConfiguredAdviser, RefusesACalibrationForPicturesOfAnotherSize) {
+  config_.camera.calibration = folder_ / "camera.toml";
+  std::ofstream(config_.camera.calibration) << ingest::camera_toml(calibrated().plan.camera);
+  config_.camera.options.width_px = 4000;
+  config_.camera.options.height_px = 2250;
+  EXPECT_TRUE(adviser_options(config_));
+  config_.camera.options.height_px = 3000;
+  const auto refused = adviser_options(config_);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().sentence,
+              AllOf(HasSubstr("4000 x 2250 pixels"), HasSubstr("3000 pixels high")));
 }
 
 TEST_F(ConfiguredAdviser, SaysWhereTheCalibrationCannotBeRead) {

@@ -20,6 +20,7 @@
 #include "edge/mavlink/messages.h"
 #include "edge/record/journal.h"
 #include "firmware/devices_on_board.h"
+#include "firmware/ingest/camera_toml.h"
 #include "tests/firmware/ingest/temporary_folder.h"
 #include "tests/talk/pilot_talk.h"
 #include "tests/talk/udp_peer.h"
@@ -28,6 +29,7 @@ namespace plumbline::service {
 namespace {
 
 using namespace std::chrono_literals;
+using ::testing::AllOf;
 using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -177,6 +179,14 @@ class DaemonOnBoard : public testing::Test {
     }
     return false;
   }
+  void hear_frame_of(int rows) {
+    RawImage image;
+    image.height_px = rows;
+    Frame frame;
+    frame.timing.first_row_start = clock_->now();
+    frame.image = std::make_shared<const RawImage>(image);
+    daemon_->hear(flight::DeviceEvent{CameraEvent{std::move(frame)}});
+  }
   // Something that the deciding thread hears.
   void stir() { daemon_->hear(flight::PulseLine{LineEdge{clock_->now(), true, 0}}); }
 
@@ -244,6 +254,38 @@ TEST_F(DaemonOnBoard, LooksAtTheDiskOnceInTenSeconds) {
     std::this_thread::sleep_for(10ms);
   }
   EXPECT_LE(storage_->looks(), looks + 1);
+}
+
+// The camera gives what it likes where the configuration asks for no size.
+TEST_F(DaemonOnBoard, SaysThatTheCalibrationIsForPicturesOfAnotherSize) {
+  geometry::Camera camera;
+  camera.width_px = 4000;
+  camera.height_px = 2250;
+  camera.interior << 2125, 1999.5, 1124.5, 0, 0, 0, 0, 0, 0, 0;
+  folder_.write("camera.toml", ingest::camera_toml(camera));
+  config_.camera.calibration = folder_ / "camera.toml";
+  start();
+  hear_frame_of(2250);
+  hear_frame_of(3000);
+  EXPECT_TRUE(is_told("calibration: camera.calibration " + config_.camera.calibration));
+  EXPECT_THAT(daemon_->board().sentence(),
+              AllOf(HasSubstr("4000 x 2250 pixels"), HasSubstr("3000 pixels high")));
+  const std::string to_pilot = "Calibration is for another picture size";
+  EXPECT_THAT(screen_.texts_until(to_pilot), Contains(to_pilot));
+  hear_frame_of(2250);
+  EXPECT_TRUE(is_told("calibration: It is for pictures of this size."));
+  EXPECT_THAT(daemon_->board().sentence(), Not(HasSubstr("calibration")));
+}
+
+// Of what happened on the ground the recording tells, too.
+TEST_F(DaemonOnBoard, RecordsWhatIsNoted) {
+  start();
+  daemon_->note(record::Severity::kInfo, "pulse per second", "It is there.");
+  EXPECT_TRUE(is_told("pulse per second: It is there."));
+  end();
+  std::ifstream file(folder_ / "flights/0001/flight.journal", std::ios::binary);
+  const std::string journal{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_THAT(journal, HasSubstr("It is there."));
 }
 
 TEST_F(DaemonOnBoard, StartsWithoutThePulsePerSecondAndSaysSo) {
