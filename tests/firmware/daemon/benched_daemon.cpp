@@ -24,7 +24,7 @@ std::size_t files_in(const fs::path& folder) {
 BenchedDaemon::BenchedDaemon(const fs::path& folder) : folder_(folder) {
   process_ = ::fork();
   if (process_ != 0) return;
-  const int log = ::open((folder / "log").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+  const int log = ::open((folder / "log").c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
   ::dup2(log, STDERR_FILENO);
   const std::string bench = folder / "bench";
   ::execl(PLUMBLINE_DAEMON, PLUMBLINE_DAEMON, "--bench", bench.c_str(), nullptr);
@@ -37,7 +37,7 @@ Json BenchedDaemon::wait_for_result(int most_seconds) const {
   Json status;
   for (int k = 0; k < 10 * most_seconds; ++k) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    status = Json::parse(text_of(folder_ / "bench/status.json"), nullptr, false);
+    status = this->status();
     if (says_all_measured(status, files_in(flight() / "photos"))) break;
   }
   return status;
@@ -50,6 +50,16 @@ int BenchedDaemon::stop() {
   ::waitpid(process_, &status, 0);
   process_ = -1;
   return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+void BenchedDaemon::kill() {
+  ::kill(process_, SIGKILL);
+  ::waitpid(process_, nullptr, 0);
+  process_ = -1;
+}
+
+Json BenchedDaemon::status() const {
+  return Json::parse(text_of(folder_ / "bench/status.json"), nullptr, false);
 }
 
 bool says_all_measured(const Json& status, std::size_t photos) {

@@ -9,7 +9,8 @@
 
 namespace plumbline::acceptance {
 
-// plumblined at the bench, in real time, with everything that it keeps in `folder`.
+// plumblined at the bench, in real time, with everything that it keeps in `folder`. Several one
+// after the other add to one log.
 class BenchedDaemon {
  public:
   explicit BenchedDaemon(const fs::path& folder);
@@ -23,7 +24,12 @@ class BenchedDaemon {
 
   // As a service ends it; its exit status.
   int stop();
+  // As nothing expects it.
+  void kill();
 
+  // The last one, whoever wrote it; empty where there is none.
+  Json status() const;
+  pid_t process() const { return process_; }
   fs::path flight() const { return folder_ / "bench/flights/0001"; }
   std::string log() const { return text_of(folder_ / "log"); }
 
