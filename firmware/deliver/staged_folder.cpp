@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "firmware/deliver/staged_folder.h"
 
-#include <stdlib.h>
 #include <sys/stat.h>
 
 #include <cerrno>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "firmware/deliver/durable_file.h"
+#include "firmware/deliver/held_folder.h"
 
 namespace plumbline::deliver {
 namespace {
@@ -46,14 +46,8 @@ class NewFolders {
 // A hidden folder that holds the new files in `fresh()`; removed at the end, wherever that comes.
 class Stage {
  public:
-  ~Stage() {
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove_all(path_, ignored);
-  }
   int open_in(const fs::path& parent) {
-    std::string name = (parent / ".plumbline-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) return errno;
-    path_ = name;
+    if (const int failed = folder_.make_in(parent, ".plumbline-")) return failed;
     const bool made = ::mkdir(fresh().c_str(), 0777) == 0 && ::mkdir(old().c_str(), 0777) == 0;
     return made ? 0 : errno;
   }
@@ -62,11 +56,11 @@ class Stage {
       if (const int failed = write_durably(fresh() / file.name, file.content)) return failed;
     return sync_folder(fresh());
   }
-  fs::path fresh() const { return path_ / "fresh"; }
-  fs::path old() const { return path_ / "old"; }
+  fs::path fresh() const { return folder_.path() / "fresh"; }
+  fs::path old() const { return folder_.path() / "old"; }
 
  private:
-  fs::path path_;
+  HeldFolder folder_;
 };
 
 // Renames with a way back.

@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "firmware/deliver/staged_folder.h"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/mount.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <iterator>
+
+#include "firmware/deliver/held_folder.h"
 #include "tests/firmware/deliver/files_of.h"
 
 namespace plumbline::deliver {
@@ -65,6 +71,40 @@ TEST(StagedFolder, PutsTheOldFilesBackWhereOneCannotBeMovedIn) {
                                                        {"missing/b.csv", "new b"}};
   EXPECT_FALSE(write_all_or_nothing(scratch.path(), with_impossible_name, {}).ok());
   EXPECT_THAT(files_of(scratch.path()), ElementsAre(Pair("a.csv", "old a")));
+}
+
+// Killed while it writes, as where memory ends; of others that are at work nothing is taken.
+TEST(StagedFolder, ClearsAwayWhatAKilledProcessLeft) {
+  const ScratchFolder scratch;
+  const auto result = scratch.path() / "result";
+  const auto aged = [](const std::filesystem::path& folder) {
+    const struct timespec hour_ago[2] = {{::time(nullptr) - 3600, 0}, {::time(nullptr) - 3600, 0}};
+    ASSERT_EQ(::utimensat(AT_FDCWD, folder.c_str(), hour_ago, 0), 0);
+  };
+  const pid_t process = ::fork();
+  if (process == 0) {
+    HeldFolder left;
+    if (left.make_in(scratch.path(), ".plumbline-") != 0) ::_exit(1);
+    put(left.path() / "half", "writ");
+    ::kill(::getpid(), SIGKILL);
+  }
+  ::waitpid(process, nullptr, 0);
+  HeldFolder at_work;
+  ASSERT_EQ(at_work.make_in(scratch.path(), ".plumbline-"), 0);
+  const auto name = [](const auto& entry) { return entry.path(); };
+  std::vector<std::filesystem::path> found;
+  std::transform(std::filesystem::directory_iterator(scratch.path()), {}, std::back_inserter(found),
+                 name);
+  ASSERT_EQ(found.size(), 2u) << "just left: it may be at work";
+  for (const auto& folder : found) aged(folder);
+  std::filesystem::create_directory(scratch.path() / ".plumbline-of-mine");
+  aged(scratch.path() / ".plumbline-of-mine");
+  ASSERT_TRUE(write_all_or_nothing(result, kTwo, {}).ok());
+  found.clear();
+  std::transform(std::filesystem::directory_iterator(scratch.path()), {}, std::back_inserter(found),
+                 name);
+  EXPECT_THAT(found, testing::UnorderedElementsAre(result, at_work.path(),
+                                                   scratch.path() / ".plumbline-of-mine"));
 }
 
 TEST(StagedFolder, AFileInTheWayIsSaidAndLeft) {
