@@ -134,6 +134,7 @@ void Session::begin_flight(const std::optional<capture::Resumed>& resumed,
                                   flight_begun_, devices_.clock.wall().wall});
   loop_ = std::make_unique<CaptureLoop>(options_.capture, devices_.clock, actions());
   loop_->begin(resumed, std::exchange(before_, {}));  // which fills again meanwhile
+  if (!options_.remark.empty()) say(record::Severity::kWarning, "program", options_.remark);
   if (opened == nullptr) return;
   for (record::Stored stored : opened->found) {
     stored.time = flight_begun_;
@@ -291,8 +292,9 @@ HostTime Session::disk_due() const {
 }
 
 HostTime Session::due() const {
-  const HostTime decisions = loop_->due();
-  return options_.threads ? decisions : std::min(decisions, disk_due());
+  HostTime due = loop_->due();
+  if (options_.round_every) due = std::min(due, devices_.clock.now() + *options_.round_every);
+  return options_.threads ? due : std::min(due, disk_due());
 }
 
 // This thread and those that bring a fix to it and take a pulse from it: a decision is late by as
@@ -318,6 +320,7 @@ void Session::run(HostTime until) {
       while (work_disk()) {
       }
     }
+    events_.lived();
     devices_.clock.wait(signal_, std::min(until, due()));
   }
 }
@@ -325,6 +328,18 @@ void Session::run(HostTime until) {
 void Session::stop() {
   stopping_ = true;
   signal_.raise();
+}
+
+void Session::note(record::Severity severity, const std::string& source,
+                   const std::string& sentence) {
+  queue_.push(record::Message{devices_.clock.now(), severity, source, sentence});
+}
+
+WorkAtHand Session::work_at_hand() const {
+  WorkAtHand work;
+  if (encode_worker_) work.encoding = encode_worker_->busy_since();
+  if (disk_worker_) work.storing = disk_worker_->busy_since();
+  return work;
 }
 
 std::uint64_t Session::disk_progress() const {

@@ -48,6 +48,9 @@ struct SessionOptions {
   // Storing and encoding on threads of their own; a simulation does them in between.
   bool threads = true;
   std::chrono::nanoseconds ground_record = std::chrono::minutes(30);  // then it is begun anew
+  std::string remark;  // a warning at the beginning of each flight's journal; "": none
+  // The deciding thread lives through a round at least so often; empty: where something happens.
+  std::optional<std::chrono::nanoseconds> round_every;
 };
 
 // What happens, for status, advice and measuring. On the deciding thread, in order.
@@ -57,6 +60,13 @@ struct SessionEvents {
   std::function<void(const record::Message&)> said = [](const auto&) {};
   std::function<void(int number, const std::string& folder)> stored = [](int, const auto&) {};
   std::function<void(const std::string& folder)> ended = [](const auto&) {};
+  std::function<void()> lived = [] {};  // through a round: nothing that was due is left
+};
+
+// Since when the threads that may take long have been at one piece of their work; empty: they wait.
+struct WorkAtHand {
+  std::optional<HostTime> encoding;
+  std::optional<HostTime> storing;
 };
 
 // A companion computer from power on to power off: flights one after the other, each a folder. The
@@ -82,9 +92,10 @@ class Session {
   // and the flight is left open, for the program may be started again before it lands.
   void close();
 
-  // From any thread. A message is recorded and said in its turn: what no device says of itself.
-  void hear(DeviceEvent event) { queue_.push(std::move(event)); }
-  void hear(record::Message message) { queue_.push(std::move(message)); }
+  void hear(DeviceEvent event) { queue_.push(std::move(event)); }  // from any thread
+  // Said, and recorded in the flight's journal. From any thread.
+  void note(record::Severity severity, const std::string& source, const std::string& sentence);
+  WorkAtHand work_at_hand() const;  // from any thread, once start() is over
   const CaptureLoop& loop() const { return *loop_; }
   const Recorder& recorder() const { return *recorder_; }
 

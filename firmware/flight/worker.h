@@ -2,7 +2,9 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <functional>
+#include <optional>
 #include <thread>
 
 #include "drivers/clock.h"
@@ -31,18 +33,34 @@ class Worker {
 
   void wake() { signal_.raise(); }
 
+  // Since when it has been at the piece it works on; empty: it waits. Any thread.
+  std::optional<HostTime> busy_since() const {
+    const HostTime since = busy_since_.load();
+    return since == kIdle ? std::nullopt : std::optional(since);
+  }
+
  private:
+  static constexpr HostTime kIdle = HostTime::max();
+
   void run() {
     while (!stopping_) {
-      while (work_.work() && !stopping_) {
+      while (work_one() && !stopping_) {
       }
       if (!stopping_) clock_.wait(signal_, work_.due());
     }
   }
 
+  bool work_one() {
+    busy_since_ = clock_.now();
+    const bool may_be_more = work_.work();
+    busy_since_ = kIdle;
+    return may_be_more;
+  }
+
   Clock& clock_;
   Work work_;
   Signal signal_;
+  std::atomic<HostTime> busy_since_ = kIdle;
   std::atomic<bool> stopping_ = false;
   std::thread thread_;
 };

@@ -139,7 +139,7 @@ void Daemon::say(record::Severity severity, const std::string& source,
 
 void Daemon::note(record::Severity severity, const std::string& source,
                   const std::string& sentence) {
-  session_->hear(record::Message{devices_.clock.now(), severity, source, sentence});
+  session_->note(severity, source, sentence);
 }
 
 void Daemon::tell(const std::string& sentence) {
