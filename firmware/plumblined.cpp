@@ -2,11 +2,13 @@
 #include <pthread.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -18,12 +20,14 @@
 #include "firmware/ingest/text_file.h"
 #include "firmware/service/camera_finder.h"
 #include "firmware/service/daemon.h"
+#include "firmware/service/life_signs.h"
 
 namespace plumbline {
 namespace {
 
 constexpr int kWorkFailed = 1;
 constexpr int kWrongUsage = 2;
+constexpr std::chrono::seconds kRest{2};
 
 int fail(const std::string& sentence) {
   std::cerr << "plumblined: " << sentence << '\n';
@@ -166,10 +170,11 @@ class EndSignals {
     ::pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
     std::signal(SIGPIPE, SIG_IGN);
   }
-  void watch(service::Daemon& daemon) {
-    thread_ = std::thread([this, &daemon] {
+  void watch(service::Daemon& daemon, const service::ServiceManager& manager) {
+    thread_ = std::thread([this, &daemon, &manager] {
       int number = 0;
       ::sigwait(&signals_, &number);
+      if (const Status told = manager.stopping(); !told) fail(told.error().sentence);
       daemon.stop();
     });
   }
@@ -184,6 +189,12 @@ class EndSignals {
   std::thread thread_;
 };
 
+service::LifeSources sources_of(service::Daemon& daemon) {
+  return {[&daemon] { return daemon.progress(); }, [&daemon] { return daemon.board().sentence(); },
+          [&daemon](record::Severity severity, const std::string& source,
+                    const std::string& sentence) { daemon.note(severity, source, sentence); }};
+}
+
 service::DaemonEvents events_for(Devices& devices) {
   service::DaemonEvents events;
   events.told = [](const std::string& sentence) { std::cerr << sentence + '\n'; };
@@ -195,30 +206,64 @@ service::DaemonEvents events_for(Devices& devices) {
   return events;
 }
 
+struct Configured {
+  std::string text;
+  config::Config config;
+};
+
+// Empty, with all that is wrong said, where it is not good.
+std::optional<Configured> read_configuration(const std::string& path) {
+  auto text = ingest::read_text_file(path);
+  if (!text) {
+    fail(text.error().sentence);
+    return std::nullopt;
+  }
+  auto reading = config::parse_config(*text, path);
+  for (const Error& error : reading.errors) fail(error.sentence);
+  if (!reading.errors.empty()) return std::nullopt;
+  return Configured{std::move(*text), std::move(reading.config)};
+}
+
+// Where there is no `plumbline config --check`.
+int check(const std::string& path) {
+  if (!read_configuration(path)) return kWorkFailed;
+  std::cout << path << ": good\n";
+  return 0;
+}
+
 int run(const std::string& path, Devices& devices) {
-  const auto text = ingest::read_text_file(path);
-  if (!text) return fail(text.error().sentence);
-  const auto reading = config::parse_config(*text, path);
-  for (const Error& error : reading.errors) std::cerr << "plumblined: " << error.sentence << '\n';
-  if (!reading.errors.empty()) return kWorkFailed;
-  const config::Config& config = reading.config;
+  const auto configured = read_configuration(path);
+  if (!configured) return kWorkFailed;
+  const config::Config& config = configured->config;
+  const service::ServiceManager manager;
   EndSignals signals;
   if (const Status made = make_devices(config, devices); !made) return fail(made.error().sentence);
   if (const auto warning = folder_warning(config.recording.folder)) std::cerr << *warning << '\n';
-  auto daemon = service::Daemon::start(config, *text, devices.lent(), events_for(devices));
+  auto daemon =
+      service::Daemon::start(config, configured->text, devices.lent(), events_for(devices));
   if (!daemon) return fail(daemon.error().sentence);
   // Not before: a second daemon in the same folder must not take the first one's receiver away.
   if (devices.bench) {
     if (const Status begun = devices.bench->start(); !begun) return fail(begun.error().sentence);
   }
-  signals.watch(**daemon);
+  signals.watch(**daemon, manager);
   tell_of_returns(devices, **daemon);
   std::unique_ptr<service::CameraFinder> finder;
   if (config.camera.id.empty()) finder = find_camera(config, *devices.clock, **daemon);
   std::cerr << (*daemon)->board().sentence() + '\n';
+  const service::LifeSigns life(manager, sources_of(**daemon));
   (*daemon)->run();
   finder.reset();
   return 0;
+}
+
+// After a crash in the air it is started anew at once. What refused to start is tried again too,
+// for a disk may be mounted by then, but not five times a second.
+int run_as_service(const std::string& path) {
+  Devices devices;
+  const int status = run(path, devices);
+  if (status != 0 && service::ServiceManager().is_there()) std::this_thread::sleep_for(kRest);
+  return status;
 }
 
 int run_at_bench(const BenchOptions& options) {
@@ -236,6 +281,8 @@ int parse_and_run(int argc, char** argv) {
   app.set_version_flag("--version", PLUMBLINE_VERSION);
   std::string config = "/etc/plumbline/plumbline.toml";
   app.add_option("--config", config, "the configuration")->capture_default_str();
+  bool only_check = false;
+  app.add_flag("--check", only_check, "only say what is wrong in the configuration");
   BenchOptions bench;
   CLI::Option* folder = app.add_option(
       "--bench", bench.folder,
@@ -256,9 +303,8 @@ int parse_and_run(int argc, char** argv) {
     std::cerr << "plumblined: " << wrong.what() << "; see plumblined --help.\n";
     return kWrongUsage;
   }
-  if (!bench.folder.empty()) return run_at_bench(bench);
-  Devices devices;
-  return run(config, devices);
+  if (only_check) return check(config);
+  return bench.folder.empty() ? run_as_service(config) : run_at_bench(bench);
 }
 
 }  // namespace

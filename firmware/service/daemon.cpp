@@ -14,6 +14,10 @@ namespace plumbline::service {
 namespace {
 
 constexpr std::chrono::seconds kLookAtDiskEvery{10};
+constexpr std::chrono::milliseconds kRoundEvery{500};  // also while nothing happens: it is a sign
+constexpr const char* kReduced =
+    "It failed three times within a minute, and goes on with photos and recording alone, without "
+    "advice and measuring, until it is stopped and started by hand.";
 
 // Tells this boot of the machine from others: host times compare within one.
 std::string boot_id() {
@@ -21,6 +25,10 @@ std::string boot_id() {
   std::string id;
   std::getline(file, id);
   return id;
+}
+
+bool needs_frames(const config::Config& config) {
+  return config.capture.release.release == capture::Release::kNearestFrame;
 }
 
 }  // namespace
@@ -40,9 +48,10 @@ Daemon::Daemon(const config::Config& config, flight::Devices devices, SingleInst
     : config_(config),
       devices_(devices),
       instance_(std::move(instance)),
+      starts_(config.status.file + ".starts", boot_id()),
       own_(std::move(own)),
-      board_(config.capture.release.release == capture::Release::kNearestFrame,
-             config.capture.take_off) {}
+      board_(needs_frames(config), config.capture.take_off),
+      progress_({.needs_frames = needs_frames(config)}) {}
 
 Daemon::~Daemon() {
   session_.reset();  // its events reach the others
@@ -55,32 +64,61 @@ Result<std::unique_ptr<Daemon>> Daemon::start(const config::Config& config, cons
                                               flight::Devices devices, DaemonEvents own) {
   auto instance = SingleInstance::in(config.recording.folder);
   if (!instance) return instance.error();
-  auto advice = adviser_options(config);
-  if (!advice) return advice.error();
   std::unique_ptr<Daemon> daemon(new Daemon(config, devices, std::move(*instance), std::move(own)));
-  auto server =
-      StatusServer::start(daemon->board_, config.status.socket, config.status.file,
-                          [daemon = daemon.get()](bool good, const std::string& sentence) {
-                            daemon->say(good ? record::Severity::kInfo : record::Severity::kWarning,
-                                        "status", sentence);
-                          });
-  if (!server) return server.error();
-  daemon->server_ = std::move(*server);
-  if (!config.camera.calibration.empty()) daemon->calibrated_ = advice->plan.camera;
-  if (config.advice.enabled) daemon->advise(std::move(*advice));
-  if (config.measure.enabled) daemon->measure();
-  auto options = session_options(config, text);
-  if (!config.camera.calibration.empty()) {
-    auto calibration = ingest::read_text_file(config.camera.calibration);
-    if (!calibration) return calibration.error();
-    options.recorder.camera_toml = std::move(*calibration);
+  const Status begun = daemon->begin(text);
+  if (begun) return daemon;
+  daemon->starts_.end_well();  // a refusal, which leaving something out would not help
+  return begun.error();
+}
+
+Status Daemon::begin(const std::string& text) {
+  auto advice = adviser_options(config_);
+  if (!advice) return advice.error();
+  auto options = options_for_session(text);
+  if (!options) return options.error();
+  if (must_be_reduced()) {
+    config_.advice.enabled = config_.measure.enabled = false;
+    options->remark = kReduced;
   }
-  daemon->session_ = std::make_unique<flight::Session>(options, devices, daemon->events());
-  if (const Status started = daemon->session_->start(); !started) return started.error();
-  if (daemon->adviser_) daemon->remember();
-  daemon->look_at_space();
-  daemon->look_for_flight_without_result();
-  return daemon;
+  if (const Status shown = show_status(); !shown) return shown;
+  if (!config_.camera.calibration.empty()) calibrated_ = advice->plan.camera;
+  if (config_.advice.enabled) advise(std::move(*advice));
+  if (config_.measure.enabled) measure();
+  session_ = std::make_unique<flight::Session>(*options, devices_, events());
+  if (const Status started = session_->start(); !started) return started;
+  if (adviser_) remember();
+  look_at_space();
+  look_for_flight_without_result();
+  return Done{};
+}
+
+bool Daemon::must_be_reduced() {
+  return starts_.begin(devices_.clock.now()) >= StartHistory::kMany;
+}
+
+Result<flight::SessionOptions> Daemon::options_for_session(const std::string& text) const {
+  flight::SessionOptions options = session_options(config_, text);
+  options.round_every = kRoundEvery;
+  if (config_.camera.calibration.empty()) return options;
+  auto calibration = ingest::read_text_file(config_.camera.calibration);
+  if (!calibration) return calibration.error();
+  options.recorder.camera_toml = std::move(*calibration);
+  return options;
+}
+
+Status Daemon::show_status() {
+  auto server = StatusServer::start(
+      board_, config_.status.socket, config_.status.file,
+      [this](bool good, const std::string& sentence) {
+        say(good ? record::Severity::kInfo : record::Severity::kWarning, "status", sentence);
+      });
+  if (!server) return server.error();
+  server_ = std::move(*server);
+  return Done{};
+}
+
+Progress::State Daemon::progress() const {
+  return progress_.state(devices_.clock.now(), session_->work_at_hand());
 }
 
 void Daemon::look_for_flight_without_result() {
@@ -137,11 +175,6 @@ void Daemon::say(record::Severity severity, const std::string& source,
   tell(source + ": " + sentence);
 }
 
-void Daemon::note(record::Severity severity, const std::string& source,
-                  const std::string& sentence) {
-  session_->note(severity, source, sentence);
-}
-
 void Daemon::tell(const std::string& sentence) {
   const std::lock_guard lock(told_mutex_);
   own_.told(sentence);
@@ -165,6 +198,7 @@ void Daemon::tell(const capture::Decision& decision) {
 flight::SessionEvents Daemon::events() {
   flight::SessionEvents events;
   events.heard = [this](const capture::Input& input) { heard(input); };
+  events.lived = [this] { progress_.lived(); };
   events.decided = [this](const capture::Decision& decision) {
     if (const auto* phase = std::get_if<capture::PhaseChanged>(&decision.what)) {
       flying_ = phase->phase == capture::Phase::kFlying;
@@ -196,6 +230,7 @@ flight::SessionEvents Daemon::events() {
 // In flight this thread leaves the disk alone.
 void Daemon::heard(const capture::Input& input) {
   board_.heard(input);
+  progress_.heard(input);
   bool is_due = !looked_ || input.now >= *looked_ + kLookAtDiskEvery;
   if (const auto* frame = std::get_if<capture::FrameSeen>(&input.what)) {
     const bool tells = frame->rows > 1;  // else the camera keeps its pictures
@@ -257,6 +292,7 @@ void Daemon::look_at_picture(int rows) {
 void Daemon::run() {
   session_->run(HostTime::max());
   session_->close();
+  starts_.end_well();
 }
 
 }  // namespace plumbline::service

@@ -12,7 +12,9 @@
 #include "firmware/flight/session.h"
 #include "firmware/service/adviser.h"
 #include "firmware/service/measurer.h"
+#include "firmware/service/progress.h"
 #include "firmware/service/single_instance.h"
+#include "firmware/service/start_history.h"
 #include "firmware/service/status_board.h"
 #include "firmware/service/status_server.h"
 
@@ -29,6 +31,7 @@ struct DaemonEvents {
 class Daemon {
  public:
   // `text` is the configuration as it was read. Fails, with a sentence, where it cannot begin.
+  // After three failures within a minute it captures, and leaves out advice and measuring.
   static Result<std::unique_ptr<Daemon>> start(const config::Config& config,
                                                const std::string& text, flight::Devices devices,
                                                DaemonEvents own = {});
@@ -41,13 +44,20 @@ class Daemon {
   // A camera that was found later.
   void hear(flight::DeviceEvent event) { session_->hear(std::move(event)); }
   // For log, status and the flight's recording: what no device says of itself. Any thread.
-  void note(record::Severity severity, const std::string& source, const std::string& sentence);
+  void note(record::Severity severity, const std::string& source, const std::string& sentence) {
+    session_->note(severity, source, sentence);
+  }
   const StatusBoard& board() const { return board_; }
+  Progress::State progress() const;  // any thread
 
  private:
   Daemon(const config::Config& config, flight::Devices devices, SingleInstance instance,
          DaemonEvents own);
 
+  Status begin(const std::string& text);
+  Result<flight::SessionOptions> options_for_session(const std::string& text) const;
+  bool must_be_reduced();
+  Status show_status();
   // For log and status alone.
   void say(record::Severity severity, const std::string& source, const std::string& sentence);
   void advise(AdviserOptions options);
@@ -73,9 +83,11 @@ class Daemon {
   config::Config config_;
   flight::Devices devices_;
   SingleInstance instance_;
+  StartHistory starts_;
   DaemonEvents own_;
   std::mutex told_mutex_;
   StatusBoard board_;
+  Progress progress_;
   std::optional<int> rows_seen_;  // of the camera's frames
   std::optional<geometry::Camera> calibrated_;
   bool calibration_misfits_ = false;

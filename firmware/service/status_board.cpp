@@ -186,8 +186,8 @@ std::string StatusBoard::sentence_locked() const {
   }
   if (phase_ != capture::Phase::kFlying && !result_.empty()) text += " " + result_;
   for (const char* source :
-       {"receiver", "camera", "calibration", "autopilot", "disk", "trigger line", "shutter line",
-        "pulse per second", "photo", "status"}) {
+       {"program", "receiver", "camera", "calibration", "autopilot", "disk", "trigger line",
+        "shutter line", "pulse per second", "photo", "status"}) {
     const auto said = last_said_.find(source);
     if (said == last_said_.end()) continue;
     if (said->second.severity != record::Severity::kInfo) text += " " + said->second.sentence;
