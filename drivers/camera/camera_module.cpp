@@ -10,6 +10,7 @@
 namespace plumbline {
 namespace {
 
+constexpr const char* kInstalledBeside = "/../lib/plumbline";  // bin and sbin
 constexpr const char* kOtherwise = "; cameras behind V4L2 work without it";
 
 // What the loader says when a library that the module needs is not there begins with its name.
@@ -76,7 +77,8 @@ std::vector<std::string> CameraModule::list() const {
 }
 
 std::vector<std::string> camera_module_folders() {
-  return {folder_of_program(), PLUMBLINE_MODULE_FOLDER};
+  const std::string program = folder_of_program();
+  return {program, program + kInstalledBeside};
 }
 
 }  // namespace plumbline

@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 
 const std::vector<std::string_view> kSourceFolders = {"edge", "drivers", "sim", "firmware",
                                                       "tests"};
-const std::vector<std::string_view> kOtherFolders = {"cmake", "scripts", ".ci", "systemd", "docs"};
+const std::vector<std::string_view> kOtherFolders = {"cmake",   "scripts", ".ci",
+                                                     "systemd", "docs",    "packages"};
 
 std::string text_of(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
