@@ -2,6 +2,7 @@
 #include <pthread.h>
 
 #include <CLI/CLI.hpp>
+#include <atomic>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -173,19 +174,24 @@ class EndSignals {
   void watch(service::Daemon& daemon, const service::ServiceManager& manager) {
     thread_ = std::thread([this, &daemon, &manager] {
       int number = 0;
-      ::sigwait(&signals_, &number);
+      do {
+        ::sigwait(&signals_, &number);
+        if (is_over_) return;  // the daemon may be gone, as where memory ended
+      } while (number == SIGUSR1);
       if (const Status told = manager.stopping(); !told) fail(told.error().sentence);
       daemon.stop();
     });
   }
   ~EndSignals() {
     if (!thread_.joinable()) return;
+    is_over_ = true;
     ::pthread_kill(thread_.native_handle(), SIGUSR1);
     thread_.join();
   }
 
  private:
   sigset_t signals_{};
+  std::atomic<bool> is_over_ = false;
   std::thread thread_;
 };
 

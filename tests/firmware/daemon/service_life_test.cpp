@@ -2,6 +2,7 @@
 // plumblined as a service manager sees it, without receiver and camera.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -9,6 +10,7 @@
 #include <csignal>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -39,9 +41,11 @@ class DaemonAsAService : public testing::Test {
     if (process_ > 0) end(SIGKILL);
   }
 
-  void start() {
+  void start(std::optional<rlim_t> memory_bytes = {}) {
     process_ = ::fork();
     if (process_ != 0) return;
+    const rlimit most{memory_bytes.value_or(RLIM_INFINITY), RLIM_INFINITY};
+    ::setrlimit(RLIMIT_AS, &most);
     ::execl(PLUMBLINE_DAEMON, PLUMBLINE_DAEMON, "--config", config_.c_str(), nullptr);
     ::_exit(127);
   }
@@ -51,6 +55,17 @@ class DaemonAsAService : public testing::Test {
     ::waitpid(process_, &status, 0);
     process_ = -1;
     return status;
+  }
+  // Its status, where it ends before it gives a sign of life.
+  std::optional<int> end_before_it_lives() {
+    for (;;) {
+      const auto message = manager_.next(50);
+      if (message && message->find("WATCHDOG=1") != std::string::npos) return std::nullopt;
+      int status = -1;
+      if (::waitpid(process_, &status, WNOHANG) == 0) continue;
+      process_ = -1;
+      return status;
+    }
   }
   // What it says first, once it is up.
   std::string ready() { return manager_.next(20'000).value_or("nothing"); }
@@ -126,6 +141,29 @@ TEST_F(DaemonAsAService, KeepsInTheRecordingOfAFlightThatItIsReduced) {
     if (file.path().filename() == "flight.journal") journals += text_of(file.path());
   }
   EXPECT_THAT(journals, HasSubstr(kReduced));
+}
+
+TEST_F(DaemonAsAService, RefusesABrokenConfigurationAndTouchesNothing) {
+  std::ofstream(config_, std::ios::app) << "[reciever]\nx = 1\n[capture]\nstep_m = -5\n";
+  const Outcome refused = run_any({PLUMBLINE_DAEMON, "--config", config_.string()}, folder_ / "");
+  EXPECT_EQ(refused.status, 1);
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("plumbline.toml:10"), HasSubstr("receiver"),
+                                 HasSubstr("plumbline.toml:13"), HasSubstr("step_m")));
+  EXPECT_TRUE(fs::is_empty(folder_ / "flights"));
+  EXPECT_FALSE(fs::exists(folder_ / "status.json"));
+  EXPECT_FALSE(manager_.next(0)) << "it is not ready";
+}
+
+// Memory that is too little for some or all of its threads: a sentence, or a life.
+TEST_F(DaemonAsAService, EndsInOrderWhereMemoryEnds) {
+  for (rlim_t megabytes = 20; megabytes <= 140; megabytes += 10) {
+    start(megabytes << 20);
+    const std::optional<int> ended = end_before_it_lives();
+    const int status = ended ? *ended : end(SIGTERM);
+    ASSERT_TRUE(WIFEXITED(status)) << megabytes << " MiB: signal " << WTERMSIG(status);
+    EXPECT_EQ(WEXITSTATUS(status), ended ? 1 : 0) << megabytes;
+    manager_.all();
+  }
 }
 
 }  // namespace
