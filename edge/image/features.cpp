@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <opencv2/features2d.hpp>
 
@@ -20,6 +21,56 @@ std::size_t screening_level(const PhotoLevels& photo) {
     ++level;
   }
   return level;
+}
+
+// SIFT's scale space takes some 230 bytes a pixel, and each thread has its own: of a tile at a time
+// no more than 200 MB. A margin holds what descriptors of sigmas up to 6 pixels look at (10.6 of
+// them, Lowe 2004, section 6.1); larger features are few.
+constexpr int kTile_px = 800;
+constexpr int kMargin_px = 64;
+
+struct Tile {
+  cv::Rect core;   // features of which it has
+  cv::Rect whole;  // with its margin, within the image
+  cv::Mat image;
+  bool has(const cv::KeyPoint& point) const {
+    return core.contains(cv::Point(static_cast<int>(point.pt.x), static_cast<int>(point.pt.y)));
+  }
+};
+
+std::vector<Tile> tiles_of(const cv::Mat& image) {
+  const auto parts = [](int side) { return (side + kTile_px - 1) / kTile_px; };
+  const cv::Rect all(0, 0, image.cols, image.rows);
+  std::vector<Tile> tiles;
+  for (int row = 0; row < parts(image.rows); ++row) {
+    for (int col = 0; col < parts(image.cols); ++col) {
+      const cv::Point begin(image.cols * col / parts(image.cols),
+                            image.rows * row / parts(image.rows));
+      const cv::Point end(image.cols * (col + 1) / parts(image.cols),
+                          image.rows * (row + 1) / parts(image.rows));
+      const cv::Point margin(kMargin_px, kMargin_px);
+      const cv::Rect whole = cv::Rect(begin - margin, end + margin) & all;
+      tiles.push_back({cv::Rect(begin, end), whole, image(whole)});
+    }
+  }
+  return tiles;
+}
+
+std::vector<cv::KeyPoint> moved(std::vector<cv::KeyPoint> points, const cv::Point& by) {
+  for (cv::KeyPoint& point : points) point.pt += cv::Point2f(by);
+  return points;
+}
+
+std::vector<cv::KeyPoint> detect_in(const std::vector<Tile>& tiles, cv::SIFT& sift) {
+  std::vector<cv::KeyPoint> all;
+  for (const Tile& tile : tiles) {
+    std::vector<cv::KeyPoint> points;
+    sift.detect(tile.image, points);
+    for (const cv::KeyPoint& point : moved(std::move(points), tile.whole.tl())) {
+      if (tile.has(point)) all.push_back(point);
+    }
+  }
+  return all;
 }
 
 bool stronger(const cv::KeyPoint& a, const cv::KeyPoint& b) {
@@ -61,6 +112,27 @@ Eigen::MatrixXf unit_columns(const cv::Mat& descriptors) {
   return columns;
 }
 
+// Of `points`, tile by tile.
+Features described(const std::vector<cv::KeyPoint>& points, const std::vector<Tile>& tiles,
+                   cv::SIFT& sift) {
+  Features features;
+  cv::Mat descriptors;
+  for (const Tile& tile : tiles) {
+    std::vector<cv::KeyPoint> own;
+    std::copy_if(points.begin(), points.end(), std::back_inserter(own),
+                 [&](const cv::KeyPoint& point) { return tile.has(point); });
+    own = moved(std::move(own), -tile.whole.tl());
+    if (own.empty()) continue;
+    cv::Mat of_tile;
+    sift.compute(tile.image, own, of_tile);
+    descriptors.push_back(of_tile);
+    for (const cv::KeyPoint& point : moved(std::move(own), tile.whole.tl()))
+      features.place_px.emplace_back(point.pt.x, point.pt.y);
+  }
+  features.descriptors = unit_columns(descriptors);
+  return features;
+}
+
 struct Best {
   int index = -1;
   float first = -1;
@@ -85,17 +157,12 @@ Features detect_features(const PhotoLevels& photo, int wanted) {
   if (photo.empty()) return features;
   const std::size_t level = screening_level(photo);
   const cv::Mat& image = photo.level[level];
+  const std::vector<Tile> tiles = tiles_of(image);
   const auto sift = cv::SIFT::create(0, 3, 0.02);
-  std::vector<cv::KeyPoint> points;
-  sift->detect(image, points);
-  points = spread(std::move(points), image.size(), wanted);
-  if (points.empty()) return features;
-  cv::Mat descriptors;
-  sift->compute(image, points, descriptors);
+  const auto points = spread(detect_in(tiles, *sift), image.size(), wanted);
+  features = described(points, tiles, *sift);
   const double grow = static_cast<double>(1 << level);
-  for (const cv::KeyPoint& point : points)
-    features.place_px.emplace_back(grow * point.pt.x, grow * point.pt.y);
-  features.descriptors = unit_columns(descriptors);
+  for (Eigen::Vector2d& place : features.place_px) place *= grow;
   return features;
 }
 
