@@ -32,7 +32,7 @@ void keep_to(const capture::CapturePlan& capture, plan::Options& options) {
 
 // So many of each the planner takes and answers in under a second: photos of the climb, of a grid,
 // and heights to come.
-constexpr std::size_t kMostAsked = 60;
+constexpr std::size_t kMostAsked = 25;
 
 // Every second, third, ... where there are too many; the first and the last are among them.
 template <typename T>
