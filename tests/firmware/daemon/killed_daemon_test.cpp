@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <functional>
@@ -28,22 +29,37 @@ namespace {
 using namespace std::chrono_literals;
 
 // The simulated ground takes seconds to be made at each start, and one to be painted for a photo.
-constexpr int kKills = 4;
-constexpr double kShortestLife_s = 2, kLongestLife_s = 8;
-constexpr double kFirst_m = 10, kLast_m = 34, kStep_m = 8;
+constexpr int kKills = 3;
+constexpr double kShortestLife_s = 1, kLongestLife_s = 6;
+constexpr double kFirst_m = 10, kLast_m = 26, kStep_m = 8;
 constexpr double kTop_m = kLast_m + 2;
-constexpr double kUp_m_s = 0.8, kDown_m_s = 1.5;
-constexpr double kOnGround_s = 12, kAtTop_s = 10;
+constexpr double kUp_m_s = 0.8, kDown_m_s = 2, kAtTop_s = 3;
 
-// Up, a while at the top, and down again: the way by which heights are taken that went by while
-// nothing ran.
-double height_m(double seconds) {
-  const double up_s = kTop_m / kUp_m_s;
-  const double flown_s = seconds - kOnGround_s;
-  const double climbed_m = kUp_m_s * std::clamp(flown_s, 0.0, up_s);
-  const double sunk_m = kDown_m_s * std::max(flown_s - up_s - kAtTop_s, 0.0);
-  return std::max(climbed_m - sunk_m, 0.0);
-}
+// Up, for a while at the top, and down again: the way by which heights are taken that went by while
+// nothing ran. Both ways begin when the test says so.
+class Pilot {
+ public:
+  explicit Pilot(const Clock& clock) : clock_(clock), begun_(clock.now()) {}
+
+  void take_off() { take_off_s_ = in_seconds(clock_.now() - begun_); }
+  // After some seconds at the top.
+  void descend() {
+    const double at_top_s = take_off_s_ + kTop_m / kUp_m_s + kAtTop_s;
+    descend_s_ = std::max(at_top_s, in_seconds(clock_.now() - begun_));
+  }
+
+  // At a time since it was made.
+  double height_m(double seconds) const {
+    const double up_m = std::clamp(kUp_m_s * (seconds - take_off_s_), 0.0, kTop_m);
+    return std::max(up_m - kDown_m_s * std::max(seconds - descend_s_, 0.0), 0.0);
+  }
+  HostTime begun() const { return begun_; }
+
+ private:
+  const Clock& clock_;
+  HostTime begun_;
+  std::atomic<double> take_off_s_ = 1e9, descend_s_ = 1e9;
+};
 
 class KilledDaemon : public testing::Test {
  protected:
@@ -69,12 +85,12 @@ class KilledDaemon : public testing::Test {
 
   void plug_in_the_receiver() {
     sim::GnssStreamOptions options;
-    options.host_at_start = clock_.now();
+    options.host_at_start = pilot_.begun();
     options.utc_at_start = std::chrono::floor<std::chrono::seconds>(clock_.wall().wall);
     const auto frame = *geodesy::LocalFrame::at({35.66, 139.76, 52.3});
     auto stream = std::make_shared<sim::GnssStream>(
-        [frame](double seconds) {
-          return frame.geodetic_of({0, 0, height_m(seconds)});
+        [this, frame](double seconds) {
+          return frame.geodetic_of({0, 0, pilot_.height_m(seconds)});
         },
         options, 1);
     port_.emplace(clock_, receiver(),
@@ -92,7 +108,9 @@ class KilledDaemon : public testing::Test {
     }
     return false;
   }
-  static bool flies(const Json& status) { return status.value("phase", "") == "flying"; }
+  static std::function<bool(const Json&)> phase_is(const std::string& phase) {
+    return [phase](const Json& status) { return status.value("phase", "") == phase; };
+  }
 
   // "0001/0003" for every photo that was said to be stored.
   static std::multiset<std::string> stored(const std::string& log) {
@@ -108,6 +126,7 @@ class KilledDaemon : public testing::Test {
 
   fs::path folder_;
   posix::SystemClock clock_;
+  Pilot pilot_{clock_};
   std::optional<sim::LivePort> port_;
 };
 
@@ -118,17 +137,20 @@ TEST_F(KilledDaemon, GoesOnWithItsFlightAndLosesNothingThatItSaidToBeStored) {
   sim::Random random(1, 75);
   plug_in_the_receiver();
   auto daemon = std::make_unique<BenchedDaemon>(folder_);
-  ASSERT_TRUE(comes_to(*daemon, flies)) << daemon->log();
+  ASSERT_TRUE(comes_to(*daemon, phase_is("ready"))) << daemon->log();
+  pilot_.take_off();
+  ASSERT_TRUE(comes_to(*daemon, phase_is("flying"))) << daemon->log();
   for (int kill = 0; kill < kKills; ++kill) {
     std::this_thread::sleep_for(
         std::chrono::duration<double>(random.uniform(kShortestLife_s, kLongestLife_s)));
     daemon->kill();
     daemon = std::make_unique<BenchedDaemon>(folder_);
-    const auto lives = [&](const Json& status) {
-      return status.value("pid", 0) == daemon->process();
+    const auto flies_on = [&](const Json& status) {
+      return status.value("pid", 0) == daemon->process() && phase_is("flying")(status);
     };
-    ASSERT_TRUE(comes_to(*daemon, lives)) << daemon->log();
+    ASSERT_TRUE(comes_to(*daemon, flies_on)) << daemon->log();
   }
+  pilot_.descend();
   ASSERT_TRUE(comes_to(*daemon, [](const Json& status) {
     return !status.value("last_flight", "").empty();
   })) << daemon->log();
