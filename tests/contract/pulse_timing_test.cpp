@@ -28,6 +28,12 @@ using std::chrono::nanoseconds;
 
 constexpr int kOften = 200;
 constexpr int kSeconds = 60;
+constexpr std::ptrdiff_t kSettled = 20;  // seconds after which a fit is better than its pulses
+
+// No run is like the one before. Of sixty normal errors one is beyond 3 sigmas in every seventh
+// run; more than three are in one of 40,000, and one beyond 5.1 in one of 50,000.
+constexpr double kRare = 5.1;
+constexpr int kMostBeyondThree = 3;
 
 std::string setting(const char* name) {
   const char* value = std::getenv(name);
@@ -201,13 +207,18 @@ TEST_F(KernelPulses, GiveAClockWithinTheirOwnJitter) {
   print("the kernel's delay at falling edges", delay);
   print("the kernel's delay at rising edges", delays_of(rising));
   ASSERT_GE(errors_us.size(), static_cast<std::size_t>(kSeconds) / 2);
-  const Statistics error = statistics(errors_us), in_sigmas = statistics(errors_in_sigmas);
-  print("error of the clock", error);
+  const Statistics in_sigmas = statistics(errors_in_sigmas);
+  print("error of the clock", statistics(errors_us));
   print("its stated sigma", statistics(sigmas_us));
   std::printf("error in sigmas: from %.2f to %.2f\n", in_sigmas.least_us, in_sigmas.most_us);
-  EXPECT_GE(in_sigmas.least_us, -3);
-  EXPECT_LE(in_sigmas.most_us, 3);
-  EXPECT_LE(std::hypot(error.mean_us, error.sd_us), delays_of(rising).sd_us);
+  EXPECT_GE(in_sigmas.least_us, -kRare);
+  EXPECT_LE(in_sigmas.most_us, kRare);
+  const auto is_beyond = [](double in_sigmas) { return std::abs(in_sigmas) > 3; };
+  EXPECT_LE(std::count_if(errors_in_sigmas.begin(), errors_in_sigmas.end(), is_beyond),
+            kMostBeyondThree);
+  const Statistics settled = statistics({errors_us.begin() + kSettled, errors_us.end()});
+  print("after twenty pulses", settled);
+  EXPECT_LE(std::hypot(settled.mean_us, settled.sd_us), delays_of(rising).sd_us);
 }
 
 }  // namespace
