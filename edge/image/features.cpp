@@ -23,9 +23,10 @@ std::size_t screening_level(const PhotoLevels& photo) {
   return level;
 }
 
-// SIFT's scale space takes some 230 bytes a pixel, and each thread has its own: of a tile at a time
-// no more than 200 MB. A margin holds what descriptors of sigmas up to 6 pixels look at (10.6 of
-// them, Lowe 2004, section 6.1); larger features are few.
+// SIFT's scale space takes some 230 bytes a pixel (twice as wide and high, 11 images of floats for
+// each octave), and each thread has its own: of a tile at a time. A margin holds what OpenCV's
+// descriptors of sigmas up to 6 pixels look at (3 sqrt(2) (4 + 1) / 2 sigmas); larger features are
+// few.
 constexpr int kTile_px = 800;
 constexpr int kMargin_px = 64;
 
