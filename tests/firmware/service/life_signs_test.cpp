@@ -26,6 +26,13 @@ class ShownLife : public testing::Test {
             }};
   }
 
+  // Up, and whatever was said of it read.
+  void be_ready() {
+    state_.rounds = 1;
+    look_.now();
+    socket_.all();
+  }
+
   ingest::TemporaryFolder folder_;
   NotifySocket socket_{folder_ / "notify"};
   ServiceManager manager_;
@@ -44,9 +51,7 @@ TEST_F(ShownLife, BeginsWithTheFirstRoundOfTheDecidingThread) {
 }
 
 TEST_F(ShownLife, GoesOnWithRoundsAndStopsWithoutThem) {
-  state_.rounds = 1;
-  look_.now();
-  socket_.all();
+  be_ready();
   look_.now();
   EXPECT_THAT(socket_.all(), IsEmpty());
   state_.rounds = 5;
@@ -55,9 +60,7 @@ TEST_F(ShownLife, GoesOnWithRoundsAndStopsWithoutThem) {
 }
 
 TEST_F(ShownLife, ShowsASentenceOnce) {
-  state_.rounds = 1;
-  look_.now();
-  socket_.all();
+  be_ready();
   sentence_ = "Flying.";
   look_.now();
   look_.now();
@@ -65,9 +68,7 @@ TEST_F(ShownLife, ShowsASentenceOnce) {
 }
 
 TEST_F(ShownLife, StopsWhereSomethingHangsAndSaysSoOnce) {
-  state_.rounds = 1;
-  look_.now();
-  socket_.all();
+  be_ready();
   state_.hangs = "The encoder hangs.";
   for (int k = 0; k < 3; ++k) {
     ++state_.rounds;
@@ -82,9 +83,7 @@ TEST_F(ShownLife, StopsWhereSomethingHangsAndSaysSoOnce) {
 }
 
 TEST_F(ShownLife, GoesOnWithADiskThatHangsAndSaysWhenItDoesNoMore) {
-  state_.rounds = 1;
-  look_.now();
-  socket_.all();
+  be_ready();
   state_.disk_is_late = true;
   state_.rounds = 2;
   look_.now();
