@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,10 @@ constexpr int kAzimuthsTried = 8;
 constexpr int kFewPhotos = 3;
 // A cost beyond its expectation by so many of its standard deviations is a doubt.
 constexpr double kDoubtSigmas = 3;
+// So many points tell whether another start leads lower; all are needed only where it does.
+constexpr int kPointsToTry = 300;
+// Descents into the same valley end within this share of its cost.
+constexpr double kSameCost = 1e-4;
 
 Descent descend(const Network& network, State start, const TermOptions& terms,
                 const MinimiseOptions& options) {
@@ -68,31 +73,96 @@ bool doubtful(const Network& network, const Descent& descent) {
   return dof > 0 && descent.end.cost > dof + kDoubtSigmas * std::sqrt(2 * dof);
 }
 
-void keep_lower(Descent&& other, int& iterations, Descent& best) {
-  iterations += other.end.iterations;
-  if (other.end.cost < best.end.cost) best = std::move(other);
+// The same network with about `wanted` of its points, evenly from all groups; those that lengths
+// and control name are kept.
+Network thinned(const Network& network, int wanted) {
+  Network thin = network;
+  const double share = static_cast<double>(wanted) / network.points();
+  double due = 0;
+  for (PointGroup& group : thin.groups) {
+    if (group.kept) continue;
+    std::vector<int> points;
+    for (const int p : group.points) {
+      due += share;
+      if (due >= 1) {
+        points.push_back(p);
+        due -= 1;
+      } else {
+        for (int k = thin.first_ray[at(p)]; k < thin.first_ray[at(p) + 1]; ++k)
+          thin.rays[at(k)].used = false;
+      }
+    }
+    group.points = std::move(points);
+  }
+  return thin;
 }
+
+// The lowest of descents from several starts.
+class LowestDescent {
+ public:
+  LowestDescent(const Network& network, State start, const TermOptions& terms,
+                const MinimiseOptions& options)
+      : network_(network),
+        terms_(terms),
+        options_(options),
+        lowest_(descend(network, std::move(start), terms, options)),
+        iterations_(lowest_.end.iterations) {}
+
+  void try_from(State start) {
+    if (network_.points() <= kPointsToTry) return descend_from(std::move(start));
+    if (!few_points_) {
+      few_points_ = thinned(network_, kPointsToTry);
+      cost_of_few_ = descend(*few_points_, lowest_.start, terms_, options_).end.cost;
+    }
+    const double cost = descend(*few_points_, start, terms_, options_).end.cost;
+    if (!(cost < cost_of_few_ * (1 - kSameCost))) return;
+    cost_of_few_ = cost;
+    descend_from(std::move(start));
+  }
+
+  bool in_doubt() const {
+    return doubtful(network_, lowest_) ||
+           stations_contradict(network_, lowest_.end.state, terms_) ||
+           rays_contradict(network_, lowest_.end.state, options_.cauchy_scale);
+  }
+
+  const State& start() const { return lowest_.start; }
+
+  // With the iterations of all descents of all points.
+  Descent take() && {
+    lowest_.end.iterations = iterations_;
+    return std::move(lowest_);
+  }
+
+ private:
+  void descend_from(State start) {
+    Descent other = descend(network_, std::move(start), terms_, options_);
+    iterations_ += other.end.iterations;
+    if (other.end.cost < lowest_.end.cost) lowest_ = std::move(other);
+  }
+
+  const Network& network_;
+  const TermOptions& terms_;
+  const MinimiseOptions& options_;
+  Descent lowest_;
+  int iterations_;
+  std::optional<Network> few_points_;
+  double cost_of_few_ = 0;
+};
 
 }  // namespace
 
 Descent descend_around_circle(const Network& network, const State& free, const TermOptions& terms,
                               const MinimiseOptions& options) {
-  Descent best = descend(network, aligned(network, free, terms), terms, options);
-  int iterations = best.end.iterations;
-  const auto in_doubt = [&] {
-    return doubtful(network, best) || stations_contradict(network, best.end.state, terms) ||
-           rays_contradict(network, best.end.state, options.cauchy_scale);
-  };
-  if (network.slots() <= kFewPhotos || in_doubt()) {
-    keep_lower(descend(network, levelled(network, best.start, terms), terms, options), iterations,
-               best);
+  LowestDescent lowest(network, aligned(network, free, terms), terms, options);
+  if (network.slots() <= kFewPhotos || lowest.in_doubt()) {
+    lowest.try_from(levelled(network, lowest.start(), terms));
   }
-  if (in_doubt()) {
+  if (lowest.in_doubt()) {
     for (State& start : aligned_all_around(network, free, terms, kAzimuthsTried))
-      keep_lower(descend(network, std::move(start), terms, options), iterations, best);
+      lowest.try_from(std::move(start));
   }
-  best.end.iterations = iterations;
-  return best;
+  return std::move(lowest).take();
 }
 
 }  // namespace plumbline::orient

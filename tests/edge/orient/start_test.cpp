@@ -6,9 +6,11 @@
 #include <numeric>
 #include <random>
 
+#include "edge/base/index.h"
 #include "edge/base/units.h"
 #include "edge/geometry/rotation.h"
 #include "edge/orient/align.h"
+#include "edge/orient/azimuth_search.h"
 #include "edge/orient/free_start.h"
 #include "edge/orient/plane_similarity.h"
 #include "tests/edge/orient/made_flight.h"
@@ -122,7 +124,8 @@ TEST(FreeStart, SaysSoWhereNoTwoPhotosHangTogether) {
 
 // The truth, shrunk, turned about the vertical and moved away, is brought back.
 struct Displaced {
-  explicit Displaced(std::uint64_t seed, double turn_rad) : flight(make_flight({}, seed)) {
+  Displaced(std::uint64_t seed, double turn_rad, const FlightPlan& plan = {})
+      : flight(make_flight(plan, seed)) {
     std::vector<int> photos(flight.poses.size());
     std::iota(photos.begin(), photos.end(), 0);
     network = make_network(flight.problem, photos);
@@ -148,6 +151,13 @@ struct Displaced {
     return worst;
   }
 
+  double worst_target_m(const State& state) const {
+    double worst = 0;
+    for (std::size_t p = 0; p < at(flight.targets); ++p)
+      worst = std::max(worst, (state.points[p] - flight.points[p]).norm());
+    return worst;
+  }
+
   MadeFlight flight;
   Network network;
   State free;
@@ -167,6 +177,30 @@ TEST(Aligned, IsNotLedAwayByOneWrongStation) {
     Displaced moved(42, turn);
     moved.flight.problem.photos[2].station->antenna_in_enu_m += Eigen::Vector3d(6, -9, 15);
     EXPECT_LT(moved.worst_point_m(aligned(moved.network, moved.free, moved.options)), 5) << turn;
+  }
+}
+
+// The photo beside the climb lies on its other side, and all look 11 degrees aside, each another
+// way: only from another start does the descent come down to what images of 0.3 px cost.
+TEST(DescentAroundCircle, ComesToItsSideHoweverManyTies) {
+  for (const int ties : {0, 600}) {
+    FlightPlan plan;
+    plan.ties = ties;
+    Displaced moved(43, 1.0, plan);
+    Eigen::Vector3d& aside_m = moved.free.poses.back().centre_m;
+    const Eigen::Vector3d axis_m = moved.free.poses.front().centre_m;
+    aside_m.head<2>() = 2 * axis_m.head<2>() - aside_m.head<2>();
+    double towards_rad = 0;
+    for (geometry::Pose& pose : moved.free.poses) {
+      towards_rad += 2;
+      const Eigen::Vector3d tilt_rad(0.2 * std::cos(towards_rad), 0.2 * std::sin(towards_rad), 0);
+      pose.ground_from_photo = geometry::rotation_by(tilt_rad) * pose.ground_from_photo;
+    }
+    const Descent descent =
+        descend_around_circle(moved.network, moved.free, moved.options, {6, 200, 1e-6});
+    const double rays = static_cast<double>(moved.network.rays.size());
+    EXPECT_LT(descent.end.cost, 2 * rays) << ties;
+    EXPECT_LT(moved.worst_target_m(descent.end.state), 1) << ties;
   }
 }
 
