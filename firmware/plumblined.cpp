@@ -21,7 +21,7 @@
 #include "firmware/ingest/text_file.h"
 #include "firmware/service/camera_finder.h"
 #include "firmware/service/daemon.h"
-#include "firmware/service/life_signs.h"
+#include "firmware/service/life/life_signs.h"
 
 namespace plumbline {
 namespace {

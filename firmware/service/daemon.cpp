@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "firmware/ingest/text_file.h"
-#include "firmware/service/calibration_size.h"
-#include "firmware/service/disk_space.h"
+#include "firmware/service/advice/calibration_size.h"
+#include "firmware/service/disk/disk_space.h"
 
 namespace plumbline::service {
 namespace {

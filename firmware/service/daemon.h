@@ -10,13 +10,13 @@
 #include "edge/base/result.h"
 #include "firmware/config/config.h"
 #include "firmware/flight/session.h"
-#include "firmware/service/adviser.h"
-#include "firmware/service/measurer.h"
-#include "firmware/service/progress.h"
-#include "firmware/service/single_instance.h"
-#include "firmware/service/start_history.h"
-#include "firmware/service/status_board.h"
-#include "firmware/service/status_server.h"
+#include "firmware/service/advice/adviser.h"
+#include "firmware/service/disk/single_instance.h"
+#include "firmware/service/life/progress.h"
+#include "firmware/service/life/start_history.h"
+#include "firmware/service/measuring/measurer.h"
+#include "firmware/service/status/status_board.h"
+#include "firmware/service/status/status_server.h"
 
 namespace plumbline::service {
 

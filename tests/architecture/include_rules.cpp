@@ -41,7 +41,7 @@ const std::vector<Place> kLibraryPlaces = {
     {"exiv2/", {"firmware/"}},
     {"toml++/", {"firmware/", "sim/"}},
     {"nlohmann/", {"firmware/"}},
-    {"systemd/", {"firmware/service/"}},
+    {"systemd/", {"firmware/service/life/"}},
     {"spdlog/", {"firmware/"}},
     {"nettle/", {"edge/record/"}},
     {"CLI/", {"firmware/"}},

@@ -16,7 +16,7 @@
 
 #include "tests/firmware/commands/acceptance/program.h"
 #include "tests/firmware/ingest/temporary_folder.h"
-#include "tests/firmware/service/notify_socket.h"
+#include "tests/firmware/service/life/notify_socket.h"
 
 namespace plumbline::acceptance {
 namespace {
