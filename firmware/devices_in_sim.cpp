@@ -23,21 +23,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kThreads = 1;         // of the painter: the other core is the daemon's
-constexpr double kWidth_px = 1600;  // a frame that one core paints while the drone climbs a step
+constexpr int kThreads = 1;      // of the painter: the other core is the daemon's
+constexpr int kWidth_px = 1600;  // a frame that one core paints while the drone climbs a step
 constexpr double kFramesPerSecond = 0.3;  // of a camera that runs freely, for the same reason
 constexpr double kSurface_m = 60;
-
-// The same camera with fewer, larger pixels.
-sim::Profile with_width(sim::Profile profile, double width_px) {
-  const double scale = width_px / profile.width_px;
-  profile.width_px = static_cast<int>(std::lround(width_px));
-  profile.height_px = static_cast<int>(std::lround(profile.height_px * scale));
-  profile.focal_length_px *= scale;
-  profile.pixel_pitch_um /= scale;
-  for (double& offset : profile.principal_offset_px) offset *= scale;
-  return profile;
-}
 
 Status write(const fs::path& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary | std::ios::trunc);
@@ -85,7 +74,7 @@ Result<std::unique_ptr<SimulatedBench>> SimulatedBench::in(const BenchOptions& o
     return Error{"The folder " + own.folder + "/flights cannot be made: " + trouble.message() +
                  "."};
   }
-  auto flight = sim::BenchFlight::make(with_width(*profile, kWidth_px), own.seed, kThreads);
+  auto flight = sim::BenchFlight::make(sim::with_width(*profile, kWidth_px), own.seed, kThreads);
   if (!flight) return flight.error();
   std::unique_ptr<SimulatedBench> bench(new SimulatedBench(own, clock, std::move(*flight)));
   if (const Status written = bench->write_files(); !written) return written.error();
@@ -94,7 +83,7 @@ Result<std::unique_ptr<SimulatedBench>> SimulatedBench::in(const BenchOptions& o
 
 SimulatedBench::SimulatedBench(const BenchOptions& options, Clock& clock, sim::BenchFlight flight)
     : folder_(options.folder),
-      profile_(with_width(*sim::named_profile(options.profile), kWidth_px)),
+      profile_(sim::with_width(*sim::named_profile(options.profile), kWidth_px)),
       seed_(options.seed),
       clock_(clock),
       flight_(std::move(flight)),

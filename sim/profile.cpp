@@ -35,6 +35,16 @@ std::optional<Fix> fix_of(const std::string& word) {
   return std::nullopt;
 }
 
+Profile with_width(Profile profile, int width_px) {
+  const double scale = static_cast<double>(width_px) / profile.width_px;
+  profile.width_px = width_px;
+  profile.height_px = static_cast<int>(std::lround(profile.height_px * scale));
+  profile.focal_length_px *= scale;
+  profile.pixel_pitch_um /= scale;
+  for (double& offset : profile.principal_offset_px) offset *= scale;
+  return profile;
+}
+
 void set_fix(Profile& profile, Fix fix) {
   profile.fix = fix;
   switch (fix) {

@@ -73,6 +73,9 @@ struct Profile {
 // every 2.5 m, then 5 m aside. Empty for any other name.
 std::optional<Profile> named_profile(const std::string& name);
 
+// The same camera with fewer, larger pixels.
+Profile with_width(Profile profile, int width_px);
+
 // Sets the kind of fix and the error sigmas that go with it: fixed 5/10 mm white; float some
 // decimetres, slowly varying; single one offset of 3 m (5 m in height) and a slow drift.
 void set_fix(Profile& profile, Fix fix);
