@@ -14,6 +14,11 @@ hil_modules=()   # loaded in this order, "name parameter=value"
 hil_udev=no
 hil_append=''  # of the next boot: more of the kernel's command line; "name=value" is in the environment
 
+# The processor: what compilers of today take for granted, and libraries ask for.
+hil_cpu=qemu64,+ssse3,+sse4.1,+sse4.2,+popcnt
+# The kernel is to trust QEMU's clock, and to leave out what costs time there.
+hil_kernel_words='console=ttyS0 loglevel=4 panic=-1 mitigations=off nokaslr no_timer_check tsc=reliable random.trust_cpu=on cryptomgr.notests'
+
 # The version of the newest stock kernel of this Debian.
 hil_version() {
   [ -z "${hil_version:-}" ] || { echo "$hil_version"; return; }
@@ -90,7 +95,6 @@ hil_put_modules() {
   mkdir -p "$root/lib/modules/$version"
   cp "$tree/lib/modules/$version"/modules.{builtin,builtin.modinfo,order} "$root/lib/modules/$version/"
   depmod --basedir "$root" "$version"
-  printf '%s\n' "${hil_modules[@]}" >"$root/guest/modules"
 }
 
 hil_put_udev() {
@@ -129,6 +133,7 @@ hil_image() {
   for file in "${hil_files[@]}"; do hil_put "${file%%:*}" "${file#*:}" "$root"; done
   if [ "$hil_udev" = yes ]; then hil_put_udev "$root"; fi
   hil_put_modules "$tree" "$version" "$root"
+  printf '%s\n' "${hil_modules[@]}" >"$root/guest/modules"
   install -m 755 "$hil_source/tests/hil/guest/init" "$root/init"
   install -m 755 "$hil_source/tests/hil/guest/"{await,hand} "$root/bin/"
   printf '%s\n' "$commands" >"$root/guest/case"
@@ -155,10 +160,10 @@ hil_boot() {
   shift 2
   # In the foreground, that is, in the process group of the case: ended with it.
   timeout --foreground --kill-after=5 "$seconds" qemu-system-x86_64 \
-    -accel tcg,thread=multi -cpu qemu64,+ssse3,+sse4.1,+sse4.2,+popcnt -machine pc -smp 2 -m 768 \
+    -accel tcg,thread=multi -cpu "$hil_cpu" -machine pc -smp 2 -m 768 \
     -nodefaults -no-user-config -display none -no-reboot \
     -kernel "$(hil_kernel)/boot/vmlinuz-$(hil_version)" -initrd "$hil_build/$name/initrd" \
-    -append "console=ttyS0 loglevel=4 panic=-1 mitigations=off nokaslr no_timer_check tsc=reliable random.trust_cpu=on cryptomgr.notests $hil_append" \
+    -append "$hil_kernel_words $hil_append" \
     -serial "file:$hil_build/$name/kernel.log" -serial stdio \
     -device isa-debug-exit,iobase=0xf4,iosize=0x04 "$@" </dev/null || status=$?
   if [ "$status" = 124 ] || [ "$status" = 137 ]; then return 124; fi
