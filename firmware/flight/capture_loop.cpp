@@ -97,7 +97,7 @@ void CaptureLoop::take_receiver(ReceiverEvent& event) {
 void CaptureLoop::take_camera(CameraEvent& event) {
   std::visit(
       Match{[&](Frame& frame) {
-              if (!std::exchange(streaming_, true)) hear(capture::CameraSeen{true});
+              if (std::exchange(streaming_, true) != true) hear(capture::CameraSeen{true});
               const capture::FrameSeen seen{frame.sequence, frame.interior_number, frame.timing,
                                             frame.image ? frame.image->height_px : 1};
               frames_.insert_or_assign(frame.sequence, std::move(frame));

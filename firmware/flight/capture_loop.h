@@ -78,7 +78,7 @@ class CaptureLoop {
   std::map<std::uint64_t, Frame> frames_;  // held, by sequence
   std::vector<capture::Decision> decisions_;
   bool receiver_jumped_ = false;
-  bool streaming_ = false;
+  std::optional<bool> streaming_;  // unknown to a loop that begins between two frames
   std::optional<bool> armed_;
   std::optional<int> without_frame_;  // the photo
 };

@@ -111,6 +111,26 @@ TEST(Session, BeginsTheNextFlightAfterLanding) {
   EXPECT_EQ(summary.state, record::JournalState::kComplete);
 }
 
+// What is heard goes on from flight to flight: the next one has not seen a frame yet.
+TEST(Session, TellsOfACameraThatIsPulledBetweenLandingAndTheNextFrame) {
+  flights::Drone drone(short_flight());
+  sim::SimDisk disk;
+  bool streams = false;
+  SessionEvents events;
+  events.heard = [&](const capture::Input& input) {
+    const auto* camera = std::get_if<capture::CameraSeen>(&input.what);
+    if (camera != nullptr) streams = camera->streaming;
+  };
+  events.ended = [&](const std::string&) {
+    EXPECT_TRUE(streams);
+    drone.camera().unplug();
+  };
+  Session session(short_plan(), devices_of(drone, disk), events);
+  ASSERT_TRUE(session.start());
+  session.run(drone.end());
+  EXPECT_FALSE(streams);
+}
+
 TEST(Session, GoesOnWithTheSameFlightAfterARestartInTheAir) {
   flights::Drone drone(short_flight());
   sim::SimDisk disk;
