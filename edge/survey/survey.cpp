@@ -156,13 +156,19 @@ Result<Survey> measure(const Input& input, const Options& options, const Progres
   return measure(input, options, progress, finder);
 }
 
-Result<Survey> measure(const Input& input, const Options& options, const Progress& progress,
-                       image::TieFinder& finder) {
+namespace {
+
+// Ties, and picks of one photo in the others.
+Status find_matches(const Input& input, const Options& options, const Progress& progress,
+                    image::TieFinder& finder, ProblemMaker& maker) {
+  if (input.ties) {
+    maker.add_ties(*input.ties);
+    return Done{};
+  }
   const int photos = static_cast<int>(input.photos.size());
   const auto ties = finder.find(input.images, photos, options.ties, progress);
   if (!ties) return ties.error();
-  if (auto overlap = check_overlap(*ties, input.picks.size()); !overlap) return overlap.error();
-  ProblemMaker maker(input);
+  if (auto overlap = check_overlap(*ties, input.picks.size()); !overlap) return overlap;
   if (const auto lone = maker.lone_picks(); !lone.empty()) {
     progress("finding picks in the other photos", 0, 1);
     const auto found = image::transfer_picks(input.images, photos, lone, *ties, options.ties);
@@ -171,6 +177,17 @@ Result<Survey> measure(const Input& input, const Options& options, const Progres
     progress("finding picks in the other photos", 1, 1);
   }
   maker.add_ties(*ties);
+  return Done{};
+}
+
+}  // namespace
+
+Result<Survey> measure(const Input& input, const Options& options, const Progress& progress,
+                       image::TieFinder& finder) {
+  ProblemMaker maker(input);
+  if (Status found = find_matches(input, options, progress, finder, maker); !found) {
+    return found.error();
+  }
   auto problem = maker.finish();
   if (!problem) return problem.error();
   progress("adjusting", 0, 1);

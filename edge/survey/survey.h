@@ -40,6 +40,8 @@ struct Input {
   geometry::Camera camera;            // the starting camera, with its prior sigmas
   std::vector<orient::Photo> photos;  // with what is known of each
   GreyImageSource images;             // photo i of `photos`, all of the camera's size
+  // Found before: then `images` is not asked for, and a point picked in one photo stays there.
+  std::optional<image::TiePoints> ties;
   std::vector<NamedPick> picks;
   std::vector<NamedLength> lengths;
   std::vector<NamedControl> control;

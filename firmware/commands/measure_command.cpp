@@ -185,10 +185,14 @@ void add_measure(CLI::App& app, int& status) {
   sub->add_option("--ties", a->options.ties.ties_wanted, "tie points wanted")
       ->check(CLI::Range(50, 100000))
       ->capture_default_str();
+  auto* ties_from = sub->add_option("--ties-from", a->ties_from,
+                                    "an earlier result of these photos: its tie points, instead of "
+                                    "finding them anew");
   sub->add_option("--threads", a->threads, "0: as many as the machine has")
       ->check(CLI::Range(0, 256));
   sub->add_flag("--follow", a->follow,
-                "of a flight that is being flown: measure as photos come, until it has ended");
+                "of a flight that is being flown: measure as photos come, until it has ended")
+      ->excludes(ties_from);
   sub->add_flag("--json", a->json, "print summary.json instead of the table");
   add_derived_options(*sub, a->derived);
   add_adjustment_options(*sub, a->options.adjustment);

@@ -2,6 +2,7 @@
 #include "firmware/commands/measure_inputs.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "edge/base/units.h"
@@ -17,6 +18,7 @@
 #include "firmware/ingest/photo_folder.h"
 #include "firmware/ingest/starting_camera.h"
 #include "firmware/ingest/stations.h"
+#include "firmware/ingest/tie_table.h"
 
 namespace plumbline::commands {
 namespace {
@@ -43,7 +45,7 @@ class InputReader {
          {&InputReader::read_geoid_file, &InputReader::read_photo_files, &InputReader::read_camera,
           &InputReader::read_stations, &InputReader::read_flight, &InputReader::read_gnss,
           &InputReader::read_lever_arm, &InputReader::read_picks_and_lengths,
-          &InputReader::read_known}) {
+          &InputReader::read_ties, &InputReader::read_known}) {
       if (Status done = (this->*step)(); !done) return done.error();
     }
     return std::move(inputs_);
@@ -133,8 +135,7 @@ class InputReader {
     if (!arguments_.gnss.empty() || !path) return Done{};
     const auto journal = ingest::read_flight_journal(*path);
     if (!journal) return journal.error();
-    std::vector<std::string> names;
-    for (const auto& photo : photos_.photos) names.push_back(photo.name);
+    const std::vector<std::string> names = photo_names();
     const config::Config config = config_of_flight(*journal);
     const auto antenna = antenna_of_flight(*journal, names, config.capture);
     warn(antenna.warnings);
@@ -187,9 +188,7 @@ class InputReader {
 
   Status read_picks_and_lengths() {
     if (!arguments_.picks.empty()) {
-      std::vector<std::string> names;
-      for (const auto& photo : photos_.photos) names.push_back(photo.name);
-      auto picks = ingest::read_picks(arguments_.picks, names);
+      auto picks = ingest::read_picks(arguments_.picks, photo_names());
       if (!picks) return picks.error();
       inputs_.survey.picks = std::move(picks->picks);
       warn(picks->notices);
@@ -208,6 +207,30 @@ class InputReader {
       inputs_.survey.lengths.push_back(*length);
     }
     return Done{};
+  }
+
+  Status read_ties() {
+    if (arguments_.ties_from.empty()) return Done{};
+    const auto& picks = inputs_.survey.picks;
+    std::set<std::string> named;
+    for (const auto& pick : picks) {
+      named.insert(pick.point);
+      if (std::ranges::count(picks, pick.point, &survey::NamedPick::point) > 1) continue;
+      return Error{"The point " + pick.point +
+                   " is picked in one photo only; it is found in the others where ties are found "
+                   "anew, without --ties-from."};
+    }
+    const fs::path path = arguments_.ties_from / "observations.csv";
+    auto ties = ingest::read_ties(path, photo_names(), named);
+    if (!ties) return ties.error();
+    inputs_.survey.ties = std::move(*ties);
+    return remember(path);
+  }
+
+  std::vector<std::string> photo_names() const {
+    std::vector<std::string> names;
+    for (const auto& photo : photos_.photos) names.push_back(photo.name);
+    return names;
   }
 
   bool is_picked(const std::string& point) const {

@@ -21,6 +21,7 @@ struct MeasureArguments {
   std::vector<std::filesystem::path> photos;
   std::filesystem::path out;
   std::filesystem::path camera, picks, control, check, gnss, geoid;
+  std::filesystem::path ties_from;  // an earlier result
   std::vector<std::string> lengths;
   std::string time_offset;
   std::string lever_arm;

@@ -61,6 +61,37 @@ TEST_F(Flight, WithPicksOfAPhotoThatIsNotThereIsRefused) {
   expect_measure_refused({"--picks", picks.string()}, "there is no photo '0006.jpg'");
 }
 
+// Points are often picked after a flight was measured: what was found then need not be found again.
+TEST_F(Flight, IsMeasuredAgainFromTheTiesOfAnEarlierResult) {
+  copy_photos();
+  const std::vector<std::string> options{"--picks", picks.string(), "--check", check.string()};
+  ASSERT_EQ(measure(options).status, 0);
+  const Json anew = summary();
+  fs::remove_all(folder / "result");
+  ASSERT_EQ(measure({}).status, 0);
+  fs::rename(folder / "result", folder / "earlier");
+  auto from_earlier = options;
+  from_earlier.insert(from_earlier.end(), {"--ties-from", "earlier"});
+  const Outcome outcome = measure(from_earlier);
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const Json again = summary();
+  EXPECT_EQ(again["tie_points"], anew["tie_points"]);
+  // Pixels are written to 0.0001.
+  for (const std::string axis : {"_e_m", "_n_m", "_u_m"}) {
+    EXPECT_NEAR(again["check"]["rmse" + axis].get<double>(),
+                anew["check"]["rmse" + axis].get<double>(), 1e-3)
+        << axis;
+  }
+}
+
+TEST_F(Flight, WithTiesOfOtherPhotosIsRefused) {
+  copy_photos();
+  fs::create_directory(folder / "other");
+  write_text(folder / "other/observations.csv",
+             "photo,point,u_px,v_px,sigma_px\n0009.jpg,T1,1,2,0.1\n");
+  expect_measure_refused({"--ties-from", "other"}, "there is no photo '0009.jpg'");
+}
+
 TEST_F(Flight, IsMeasuredToTheSameBytesTwiceAndWithOneThread) {
   copy_photos();
   const std::vector<std::string> options{"--picks", picks.string(), "--check", check.string()};
