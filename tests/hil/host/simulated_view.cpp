@@ -2,58 +2,19 @@
 #include "tests/hil/host/simulated_view.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "tests/hil/host/exposure_mark.h"
+#include "tests/hil/host/uvc_frame.h"
 
 namespace plumbline::hil {
 namespace {
 
 constexpr double kBetweenPicturesM = 1;
-constexpr double kUsualExposureTimesGain = 20 * 10;
 
 sim::Profile profile_of(const UvcMode& mode) {
-  sim::Profile profile = *sim::named_profile("paper");
-  profile.focal_length_px *= mode.width_px / static_cast<double>(profile.width_px);
-  profile.width_px = mode.width_px;
+  sim::Profile profile = sim::with_width(*sim::named_profile("paper"), mode.width_px);
   profile.height_px = mode.height_px;
   return profile;
-}
-
-Image grey_of(const Image& colour) {
-  Image grey{colour.width_px, colour.height_px, 1, {}};
-  for (std::size_t i = 0; i + 2 < colour.data.size(); i += 3) {
-    const int luma = 299 * colour.data[i] + 587 * colour.data[i + 1] + 114 * colour.data[i + 2];
-    grey.data.push_back(static_cast<std::uint8_t>(luma / 1000));
-  }
-  return grey;
-}
-
-// Grey at every brightness, bounded by white.
-std::array<char, 256> exposed(double brightness) {
-  std::array<char, 256> table{};
-  for (std::size_t grey = 0; grey < table.size(); ++grey) {
-    const double level = std::min(255.0, std::round(brightness * static_cast<double>(grey)));
-    table[grey] = static_cast<char>(static_cast<std::uint8_t>(level));
-  }
-  return table;
-}
-
-double brightness_of(const UvcSettings& set) {
-  if (set.automatic) return 1;
-  return static_cast<double>(set.exposure_100us * set.gain) / kUsualExposureTimesGain;
-}
-
-// Which column (or row) of a picture each of an enlarged one shows; 1: as it is.
-std::vector<std::size_t> shown(int count, double enlarged) {
-  std::vector<std::size_t> indices;
-  const double middle = 0.5 * (count - 1);
-  for (int i = 0; i < count; ++i) {
-    const double from = std::clamp(middle + (i - middle) / enlarged, 0.0, count - 1.0);
-    indices.push_back(static_cast<std::size_t>(std::lround(from)));
-  }
-  return indices;
 }
 
 }  // namespace
@@ -102,20 +63,7 @@ std::string SimulatedView::expose(const UvcExposure& exposure) const {
   const std::size_t nearest = nearest_picture(up_m);
   const Image& picture = pictures_[nearest];
   const double enlarged = (profile_.from_m + heights_m_[nearest]) / (profile_.from_m + up_m);
-  const auto columns = shown(picture.width_px, enlarged);
-  const std::array<char, 256> level = exposed(brightness_of(exposure.set));
-  std::string bytes;
-  bytes.reserve(2 * picture.data.size());
-  for (const std::size_t row : shown(picture.height_px, enlarged)) {
-    const std::uint8_t* line = &picture.data[row * static_cast<std::size_t>(picture.width_px)];
-    for (const std::size_t column : columns) {
-      bytes += level[line[column]];
-      bytes += static_cast<char>(128);
-    }
-  }
-  const std::chrono::nanoseconds middle = exposure.middle.time_since_epoch();
-  write_exposure_mark(bytes, static_cast<std::uint64_t>(middle.count()));
-  return bytes;
+  return uvc_frame(picture, enlarged, exposure);
 }
 
 }  // namespace plumbline::hil

@@ -23,8 +23,6 @@ class SimulatedView {
   explicit SimulatedView(const UvcMode& mode);
   ~SimulatedView();
 
-  // YUY2, full range, with the mark of exposure_mark.h. As bright as exposure and gain make it: an
-  // exposure of 2 ms at a gain of 10 is as the sun shows the ground; automatic is always so.
   std::string expose(const UvcExposure& exposure) const;
 
  private:

@@ -256,7 +256,7 @@ void UvcCamera::take_cancel(std::uint64_t id) {
 milliseconds UvcCamera::until_next_frame() const {
   constexpr milliseconds kOrders(20);  // looked at so often
   if (waiting_.empty()) return kOrders;
-  SteadyTime next = next_exposure_;
+  SteadyTime next = next_exposure();
   if (!images_.empty()) next = std::min(next, images_.front().ready);
   const auto left = std::chrono::ceil<milliseconds>(next - std::chrono::steady_clock::now());
   return std::clamp(left, milliseconds(0), kOrders);
@@ -265,7 +265,7 @@ milliseconds UvcCamera::until_next_frame() const {
 void UvcCamera::feed() {
   while (plugged_ && link_.is_open() && !waiting_.empty()) {
     const SteadyTime now = std::chrono::steady_clock::now();
-    if (now >= next_exposure_) expose(now);
+    if (now >= next_exposure()) expose(now);
     if (images_.empty() || now < images_.front().ready) return;
     const Transfer transfer = waiting_.front();
     waiting_.pop_front();
@@ -273,17 +273,23 @@ void UvcCamera::feed() {
   }
 }
 
-// Keeps to an even rate, unless it is a whole interval behind. Exposes while earlier images wait.
+UvcCamera::SteadyTime UvcCamera::next_exposure() const {
+  return next_middle_ - std::chrono::microseconds(100) * settings().exposure_100us / 2;
+}
+
+// Exposes while earlier images wait.
 void UvcCamera::expose(SteadyTime now) {
   constexpr std::size_t kMostImages = 4;
-  const auto interval = std::chrono::nanoseconds(100) * mode_.interval_100ns();
-  next_exposure_ = (now - next_exposure_ > interval ? now : next_exposure_) + interval;
-  if (orders_.silent || images_.size() >= kMostImages) return;
+  const SteadyTime middle = next_middle_;
+  const bool missed = now - middle > mode_.interval();
+  next_middle_ = mode_.moment_after(missed ? now : middle);
+  if (missed || orders_.silent || images_.size() >= kMostImages) return;
   const UvcSettings set = settings();
   const auto exposure = std::chrono::microseconds(100) * set.exposure_100us;
   const auto delay = random_.uniform() * milliseconds(orders_.longest_delay_ms);
-  images_.push_back({picture_({set, now + exposure / 2}),
-                     now + exposure + std::chrono::duration_cast<std::chrono::nanoseconds>(delay)});
+  images_.push_back(
+      {picture_({set, middle}),
+       middle + exposure / 2 + std::chrono::duration_cast<std::chrono::nanoseconds>(delay)});
 }
 
 // A payload: its header (length; bits for which frame and its end), then a part of the frame.

@@ -40,7 +40,8 @@ struct UvcOrders {
 };
 
 // A USB camera that exists only in this program: plugs itself into QEMU's usb-redir device and
-// streams to the guest's own driver (uvcvideo) until QEMU ends. One thread.
+// streams to the guest's own driver (uvcvideo) until QEMU ends. Its sensor runs freely, whether it
+// streams or not: the middles of its exposures are UvcMode's moments. One thread.
 class UvcCamera {
  public:
   UvcCamera(RedirLink& link, UvcMode mode, UvcPicture picture, const UvcOrders& orders);
@@ -81,6 +82,7 @@ class UvcCamera {
   std::string negotiated() const;
 
   void feed();
+  SteadyTime next_exposure() const;
   void expose(SteadyTime now);
   void complete(Transfer transfer);
   std::chrono::milliseconds until_next_frame() const;
@@ -93,7 +95,7 @@ class UvcCamera {
   std::deque<Transfer> waiting_;
   std::deque<Image> images_;  // exposed; the first is being sent
   std::size_t sent_ = 0;      // of its bytes
-  SteadyTime next_exposure_{};
+  SteadyTime next_middle_{};
   sim::Random random_{20261128, 1};
   std::uint64_t frames_ = 0;  // sent whole
   bool plugged_ = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <string>
 
@@ -16,6 +17,16 @@ struct UvcMode {
   }
   std::uint32_t interval_100ns() const {
     return 10'000'000U / static_cast<std::uint32_t>(frames_per_s);
+  }
+  std::chrono::nanoseconds interval() const {
+    return std::chrono::nanoseconds(100) * interval_100ns();
+  }
+
+  // The first middle of an exposure after `time`: one every interval, since the clock began.
+  std::chrono::steady_clock::time_point moment_after(
+      std::chrono::steady_clock::time_point time) const {
+    return std::chrono::steady_clock::time_point((time.time_since_epoch() / interval() + 1) *
+                                                 interval());
   }
 };
 

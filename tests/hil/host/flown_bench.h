@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "edge/base/result.h"
+#include "tests/hil/host/drone.h"
+#include "tests/hil/host/line_socket.h"
+#include "tests/hil/host/virtual_machine.h"
+
+namespace plumbline::hil {
+
+// What happened, by the clocks of host, guest and flight.
+class Timeline {
+ public:
+  using SteadyTime = std::chrono::steady_clock::time_point;
+
+  // Also into a file.
+  explicit Timeline(const std::string& path) : file_(std::fopen(path.c_str(), "w")) {}
+  Timeline(const Timeline&) = delete;
+  Timeline& operator=(const Timeline&) = delete;
+  ~Timeline() {
+    if (file_ != nullptr) std::fclose(file_);
+  }
+
+  // Seconds since the guest's kernel began, at `now`.
+  void tie_guest(double uptime_s, SteadyTime now) {
+    guest_began_ = now - std::chrono::duration_cast<std::chrono::nanoseconds>(
+                             std::chrono::duration<double>(uptime_s));
+  }
+  void take_off(SteadyTime at) { took_off_ = at; }
+
+  void say(const std::string& text);
+
+ private:
+  std::FILE* file_;
+  SteadyTime began_ = std::chrono::steady_clock::now();
+  std::optional<SteadyTime> guest_began_;
+  std::optional<SteadyTime> took_off_;
+};
+
+// What is done to a flight, once or several times, from the first time that the drone is so high.
+struct Fault {
+  std::string name;
+  double from_height_m = 55;
+  double lasts_s = 6;
+  int times = 1;
+  double apart_s = 0;  // from the end of one to the beginning of the next
+};
+// none, cable (of the receiver, pulled ten times), camera, stall, disk, power; empty for any other.
+std::optional<Fault> fault_of(const std::string& name);
+
+struct FlownOptions {
+  std::string sockets;  // the folder of hil_start_system
+  std::string work;     // where the timeline and the flight's beginning are written
+  Fault fault;
+  std::string cut_power;  // a command that takes the machine's power and starts it again
+  std::chrono::seconds ready_within{300};
+};
+
+struct Flown {
+  std::string flight;  // its folder's name
+  int photos_stored = 0;
+  int stored_at_cut = 0;      // photos of which the daemon had said so when its power went
+  double fixes_after_s = 0;   // a cable was back, the longest
+  std::int64_t begun_ns = 0;  // the flight's time 0, by the clock of the exposure marks
+};
+
+// A flight of the installed program in the virtual computer that has been started: configures it as
+// its user would, waits until it is ready, takes off, does what is to be done to it, and lands.
+class FlownBench {
+ public:
+  FlownBench(const sim::BenchFlight& flight, const DroneOptions& drone, FlownOptions options);
+
+  Result<Flown> fly();
+
+ private:
+  using SteadyTime = std::chrono::steady_clock::time_point;
+  using Json = nlohmann::json;
+
+  Status board();
+  Status configure();
+  Status order(const std::string& command);
+  // Until the status is so, with what is to be done meanwhile.
+  Status wait_until(const std::string& what, const std::function<bool(const Json&)>& is_so,
+                    SteadyTime deadline, const std::function<void()>& meanwhile = {});
+  void follow(const Json& status);
+  Status take_off();
+  Status land();
+  void do_fault();
+  Status begin_fault();
+  Status end_fault();
+  Status cut_power();
+
+  const sim::BenchFlight& flight_;
+  DroneOptions drone_options_;
+  FlownOptions options_;
+  Timeline timeline_;
+  Drone drone_;
+  GuestShell shell_;
+  Cables cables_;
+  LineSocket status_lines_;
+  std::string shown_;
+  Flown flown_;
+  bool reached_ = false;   // the height of the fault
+  int faults_ = 0;         // so many have begun
+  SteadyTime next_fault_;  // its beginning, or the end of one that is on
+  bool fault_is_on_ = false;
+  std::optional<SteadyTime> cable_back_;  // and no fix since
+};
+
+}  // namespace plumbline::hil
