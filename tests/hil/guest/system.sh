@@ -50,14 +50,15 @@ hil_is_gone() {
   [ ! -s "$1" ] || ! kill -0 "$(cat "$1")" 2>/dev/null
 }
 
-# The disk's server. It writes to the disk what it was told to flush, and only that.
+# The disk's server. It writes to the disk what it was told to flush, and only that. What it has
+# written outlives it without being synced, for which the guest would wait on a busy machine.
 hil_start_disk() {
   local work=$1
   [ -e "$work/disk" ] || cp --sparse=always "$hil_system_folder/disk" "$work/disk"
-  nbdkit --foreground --unix "$hil_sockets/nbd" --pidfile "$work/nbd.pid" \
-    --filter=cache file "$work/disk" cache=writeback </dev/null >"$work/nbd.log" 2>&1 &
-  disown
-  hil_await 10 [ -s "$work/nbd.pid" ] || { cat "$work/nbd.log" >&2; return 1; }
+  # In the background: in the foreground it would end with the shell that started it.
+  eatmydata nbdkit --unix "$hil_sockets/nbd" --pidfile "$work/nbd.pid" \
+    --filter=cache file "$work/disk" cache=writeback </dev/null >"$work/nbd.log" 2>&1 ||
+    { cat "$work/nbd.log" >&2; return 1; }
 }
 
 # hil_socket NAME: arguments for QEMU, a character device whose other end may come and go.

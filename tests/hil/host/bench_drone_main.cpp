@@ -48,15 +48,19 @@ int fly(Arguments& a) {
   if (!flight) return fail(flight.error());
   FlownBench bench(*flight, a.drone, a.flown);
   const auto flown = bench.fly();
-  if (!flown) return fail(flown.error());
-  const Json json = {{"flight", flown->flight},
-                     {"photos_stored", flown->photos_stored},
-                     {"stored_at_cut", flown->stored_at_cut},
-                     {"fixes_after_s", flown->fixes_after_s},
-                     {"begun_ns", flown->begun_ns}};
-  std::ofstream(flown_json(a)) << json.dump(1) << "\n";
+  int status = 1;
+  if (flown) {
+    const Json json = {{"flight", flown->flight},
+                       {"photos_stored", flown->photos_stored},
+                       {"stored_at_cut", flown->stored_at_cut},
+                       {"begun_ns", flown->begun_ns}};
+    std::ofstream(flown_json(a)) << json.dump(1) << "\n";
+    status = 0;
+  } else {
+    status = fail(flown.error());
+  }
   std::fflush(nullptr);
-  std::_Exit(0);  // QEMU goes on; the camera's thread would wait for its end
+  std::_Exit(status);  // QEMU goes on, and the camera's thread would wait for its end
 }
 
 int order(const Arguments& a) {

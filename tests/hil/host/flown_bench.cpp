@@ -191,13 +191,6 @@ Status FlownBench::wait_until(const std::string& what,
 
 void FlownBench::follow(const Json& status) {
   if (!status.is_object()) return;
-  const bool has_fix = status.value("quality", 0) > 0;
-  if (cable_back_ && has_fix) {
-    const double after_s = in_s(SteadyClock::now() - *cable_back_);
-    flown_.fixes_after_s = std::max(flown_.fixes_after_s, after_s);
-    cable_back_.reset();
-    timeline_.say("fixes flow again," + seconds_text(after_s) + " after the cable was plugged in");
-  }
   std::string text = status.value("sentence", "");
   if (text == shown_) return;
   shown_ = text;
@@ -243,7 +236,6 @@ Status FlownBench::end_fault() {
       !cables_.plug(R"({"driver":"usb-serial","id":"gnss","chardev":"gnss","bus":"xhci.0"})")) {
     return Error{"QEMU does not plug the cable in again."};
   }
-  if (name == "cable") cable_back_ = SteadyClock::now();
   return name == "disk" ? order("rm -f /var/lib/full.*") : Done{};
 }
 

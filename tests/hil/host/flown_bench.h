@@ -68,7 +68,6 @@ struct Flown {
   std::string flight;  // its folder's name
   int photos_stored = 0;
   int stored_at_cut = 0;      // photos of which the daemon had said so when its power went
-  double fixes_after_s = 0;   // a cable was back, the longest
   std::int64_t begun_ns = 0;  // the flight's time 0, by the clock of the exposure marks
 };
 
@@ -112,7 +111,6 @@ class FlownBench {
   int faults_ = 0;         // so many have begun
   SteadyTime next_fault_;  // its beginning, or the end of one that is on
   bool fault_is_on_ = false;
-  std::optional<SteadyTime> cable_back_;  // and no fix since
 };
 
 }  // namespace plumbline::hil
