@@ -20,7 +20,7 @@ using Json = nlohmann::json;
 struct Arguments {
   DroneOptions drone;
   FlownOptions flown;
-  std::string fault = "none";
+  std::vector<std::string> faults;
   std::string command;  // of order
   int within_s = 60;
 };
@@ -40,10 +40,12 @@ Result<Json> read_json(const std::string& path) {
 }
 
 int fly(Arguments& a) {
-  const auto fault = fault_of(a.fault);
-  if (!fault)
-    return fail({"There is no fault '" + a.fault + "': none, cable, camera, stall, disk, power."});
-  a.flown.fault = *fault;
+  for (const std::string& text : a.faults) {
+    const auto fault = fault_of(text);
+    if (!fault)
+      return fail({"There is no fault '" + text + "': cable, camera, stall, disk, power."});
+    a.flown.faults.push_back(*fault);
+  }
   const auto flight = flight_of(a.drone);
   if (!flight) return fail(flight.error());
   FlownBench bench(*flight, a.drone, a.flown);
@@ -140,6 +142,8 @@ int main(int count, char** values) {
   CLI::App app{"What is outside the virtual companion computer: drone, receiver, camera, cables"};
   app.require_subcommand(1);
   app.add_option("--profile", a.drone.profile, "of the flight: paper, standard or ice");
+  app.add_option("--from", a.drone.from_m, "its lowest photo, m, instead of the profile's");
+  app.add_option("--to", a.drone.to_m, "its highest, m; there is no side-step then");
   app.add_option("--width", a.drone.width_px, "of the camera, pixels");
   app.add_option("--rate", a.drone.frames_per_s, "of the camera, frames per second");
   app.add_option("--seed", a.drone.seed, "of the flight");
@@ -147,7 +151,8 @@ int main(int count, char** values) {
   app.add_option("--sockets", a.flown.sockets, "folder of QEMU's sockets");
   int status = 0;
   CLI::App* flying = app.add_subcommand("fly", "configures, flies and lands");
-  flying->add_option("--fault", a.fault, "none, cable, camera, stall, disk or power");
+  flying->add_option("--fault", a.faults, "cable, camera, stall, disk, power; cable@40: at 40 m")
+      ->allow_extra_args(false);
   flying->add_option("--cut-power", a.flown.cut_power,
                      "command that takes the machine's power and starts it again");
   flying->callback([&] { status = fly(a); });

@@ -16,7 +16,13 @@ constexpr double kNeverS = 1e9;
 constexpr std::chrono::seconds kUntilTakeOff(2);
 
 sim::Profile profile_of(const DroneOptions& options) {
-  return sim::with_width(*sim::named_profile(options.profile), options.width_px);
+  sim::Profile profile = sim::with_width(*sim::named_profile(options.profile), options.width_px);
+  if (options.from_m) profile.from_m = *options.from_m;
+  if (options.to_m) {
+    profile.to_m = *options.to_m;
+    profile.side_steps_m.clear();
+  }
+  return profile;
 }
 
 }  // namespace

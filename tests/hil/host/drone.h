@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -21,6 +22,8 @@ namespace plumbline::hil {
 // The flight of the virtual companion computer: the same for all programs that speak of it.
 struct DroneOptions {
   std::string profile = "standard";
+  // Instead of the profile's: a climb without a side-step, to this height.
+  std::optional<double> from_m, to_m;
   int width_px = 1600;  // of the camera; its height is that of the profile's
   int frames_per_s = 5;
   std::uint64_t seed = 1;

@@ -70,11 +70,20 @@ void Timeline::say(const std::string& text) {
   }
 }
 
-std::optional<Fault> fault_of(const std::string& name) {
-  if (name == "cable") return Fault{name, 32, 4, 10, 2};
-  if (name == "power") return Fault{name, 55, 0, 1, 0};
-  for (const char* known : {"none", "camera", "stall", "disk"}) {
-    if (name == known) return Fault{.name = name};
+std::optional<Fault> fault_of(const std::string& text) {
+  static const Fault kKnown[] = {{"cable", 32, 4, 10, 2},
+                                 {"camera", 55, 6, 1, 0},
+                                 {"stall", 55, 6, 1, 0},
+                                 {"disk", 55, 6, 1, 0},
+                                 {"power", 55, 0, 1, 0}};
+  const std::size_t at = text.find('@');
+  for (Fault fault : kKnown) {
+    if (text.substr(0, at) != fault.name) continue;
+    if (at != std::string::npos) {
+      fault.from_height_m = std::atof(text.c_str() + at + 1);
+      fault.times = 1;
+    }
+    return fault;
   }
   return std::nullopt;
 }
@@ -85,7 +94,9 @@ FlownBench::FlownBench(const sim::BenchFlight& flight, const DroneOptions& drone
       drone_options_(drone),
       options_(std::move(options)),
       timeline_(options_.work + "/timeline.txt"),
-      drone_(flight, drone) {}
+      drone_(flight, drone) {
+  for (const Fault& fault : options_.faults) doings_.push_back({.fault = fault});
+}
 
 Result<Flown> FlownBench::fly() {
   using Step = Status (FlownBench::*)();
@@ -127,7 +138,7 @@ Status FlownBench::land() {
   const double left_s = flight_.duration_s() - drone_.seconds(SteadyClock::now());
   const auto deadline = SteadyClock::now() + seconds(static_cast<int>(left_s)) + kAfterLanding;
   const Status landed =
-      wait_until("does not say that it has landed", has_landed, deadline, [this] { do_fault(); });
+      wait_until("does not say that it has landed", has_landed, deadline, [this] { do_faults(); });
   if (!landed) return landed;
   timeline_.say("landed, " + std::to_string(flown_.photos_stored) + " photos stored in " +
                 flown_.flight);
@@ -197,27 +208,30 @@ void FlownBench::follow(const Json& status) {
   timeline_.say(text);
 }
 
-void FlownBench::do_fault() {
-  const Fault& fault = options_.fault;
-  const SteadyTime now = SteadyClock::now();
-  if (!reached_ && drone_.height_m(now) >= fault.from_height_m) {
-    reached_ = true;
-    next_fault_ = now;
-  }
-  const bool more = fault_is_on_ || faults_ < fault.times;
-  if (fault.name == "none" || !reached_ || !more || now < next_fault_) return;
-  const Status done = fault_is_on_ ? end_fault() : begin_fault();
-  timeline_.say("FAULT " + fault.name + (fault_is_on_ ? " is over" : " begins") +
-                (done ? "" : ": " + done.error().sentence));
-  faults_ += fault_is_on_ ? 0 : 1;
-  fault_is_on_ = !fault_is_on_;
-  const double until_s = fault_is_on_ ? fault.lasts_s : fault.apart_s;
-  next_fault_ = SteadyClock::now() + std::chrono::duration_cast<std::chrono::nanoseconds>(
-                                         std::chrono::duration<double>(until_s));
+void FlownBench::do_faults() {
+  for (Doing& doing : doings_) do_fault(doing);
 }
 
-Status FlownBench::begin_fault() {
-  const std::string& name = options_.fault.name;
+void FlownBench::do_fault(Doing& doing) {
+  const Fault& fault = doing.fault;
+  const SteadyTime now = SteadyClock::now();
+  if (!doing.reached && drone_.height_m(now) >= fault.from_height_m) {
+    doing.reached = true;
+    doing.next = now;
+  }
+  const bool more = doing.is_on || doing.begun < fault.times;
+  if (!doing.reached || !more || now < doing.next) return;
+  const Status done = doing.is_on ? end_fault(fault.name) : begin_fault(fault.name);
+  timeline_.say("FAULT " + fault.name + (doing.is_on ? " is over" : " begins") +
+                (done ? "" : ": " + done.error().sentence));
+  doing.begun += doing.is_on ? 0 : 1;
+  doing.is_on = !doing.is_on;
+  const double until_s = doing.is_on ? fault.lasts_s : fault.apart_s;
+  doing.next = SteadyClock::now() + std::chrono::duration_cast<std::chrono::nanoseconds>(
+                                        std::chrono::duration<double>(until_s));
+}
+
+Status FlownBench::begin_fault(const std::string& name) {
   if (name == "power") return cut_power();
   if (name == "camera") drone_.camera().plugged = false;
   if (name == "stall") drone_.camera().silent = true;
@@ -228,8 +242,7 @@ Status FlownBench::begin_fault() {
       "done; :");
 }
 
-Status FlownBench::end_fault() {
-  const std::string& name = options_.fault.name;
+Status FlownBench::end_fault(const std::string& name) {
   if (name == "camera") drone_.camera().plugged = true;
   if (name == "stall") drone_.camera().silent = false;
   if (name == "cable" &&

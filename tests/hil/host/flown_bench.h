@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "edge/base/result.h"
 #include "tests/hil/host/drone.h"
@@ -53,13 +54,14 @@ struct Fault {
   int times = 1;
   double apart_s = 0;  // from the end of one to the beginning of the next
 };
-// none, cable (of the receiver, pulled ten times), camera, stall, disk, power; empty for any other.
-std::optional<Fault> fault_of(const std::string& name);
+// "cable" (of the receiver, pulled ten times), "camera", "stall", "disk", "power"; "cable@40":
+// once, at 40 m. Empty for any other text.
+std::optional<Fault> fault_of(const std::string& text);
 
 struct FlownOptions {
   std::string sockets;  // the folder of hil_start_system
   std::string work;     // where the timeline and the flight's beginning are written
-  Fault fault;
+  std::vector<Fault> faults;
   std::string cut_power;  // a command that takes the machine's power and starts it again
   std::chrono::seconds ready_within{300};
 };
@@ -92,9 +94,17 @@ class FlownBench {
   void follow(const Json& status);
   Status take_off();
   Status land();
-  void do_fault();
-  Status begin_fault();
-  Status end_fault();
+  struct Doing {
+    Fault fault;
+    bool reached = false;  // its height
+    int begun = 0;         // so many times
+    bool is_on = false;
+    SteadyTime next{};  // its beginning, or the end of one that is on
+  };
+  void do_faults();
+  void do_fault(Doing& doing);
+  Status begin_fault(const std::string& name);
+  Status end_fault(const std::string& name);
   Status cut_power();
 
   const sim::BenchFlight& flight_;
@@ -107,10 +117,7 @@ class FlownBench {
   LineSocket status_lines_;
   std::string shown_;
   Flown flown_;
-  bool reached_ = false;   // the height of the fault
-  int faults_ = 0;         // so many have begun
-  SteadyTime next_fault_;  // its beginning, or the end of one that is on
-  bool fault_is_on_ = false;
+  std::vector<Doing> doings_;
 };
 
 }  // namespace plumbline::hil
