@@ -59,7 +59,13 @@ class Count {
  public:
   Count(const fs::path& flight, Findings& findings) : flight_(flight), findings_(findings) {}
 
-  void operator()(const record::Began&) { ++findings_.starts; }
+  void operator()(const record::Began& began) {
+    ++findings_.starts;
+    if (!began.boot.empty() && began.boot == boot_) return;
+    boot_ = began.boot;  // whose clock is another
+    before_s_ = findings_.duration_s;
+    first_.reset();
+  }
   void operator()(const record::Bytes&) {}
   void operator()(const PilotAttitude&) {}
   void operator()(const PilotPosition&) {}
@@ -76,7 +82,7 @@ class Count {
   void operator()(const capture::Input& input) {
     if (std::holds_alternative<capture::FixHeard>(input.what)) ++findings_.fixes;
     if (!first_) first_ = input.now;
-    findings_.duration_s = std::chrono::duration<double>(input.now - *first_).count();
+    findings_.duration_s = before_s_ + std::chrono::duration<double>(input.now - *first_).count();
   }
   void operator()(const capture::Decision& decision) {
     if (const auto* taken = std::get_if<capture::PhotoTaken>(&decision.what)) {
@@ -115,7 +121,9 @@ class Count {
   Findings& findings_;
   std::set<int> stored_;
   std::set<int> taken_;
-  std::optional<HostTime> first_;
+  std::optional<HostTime> first_;  // of this boot
+  std::string boot_;
+  double before_s_ = 0;
 };
 
 std::string state_of(const Findings& findings) {

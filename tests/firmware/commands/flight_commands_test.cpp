@@ -214,6 +214,32 @@ TEST_F(FlightCommand, CheckSaysWhichHeightsHaveNoPhoto) {
             nlohmann::json::array({12.5}));
 }
 
+// After a power cut the host's clock begins anew.
+TEST_F(FlightCommand, CheckAddsUpHowLongEachBootRecorded) {
+  std::string journal = record::journal_head();
+  std::uint64_t sequence = 0;
+  const auto began = [&](const std::string& boot) {
+    record::Began entry;
+    entry.boot = boot;
+    record::append_entry(entry, sequence++, journal);
+  };
+  const auto lived = [&](int from_s, int to_s) {
+    for (const int s : {from_s, to_s}) {
+      const capture::Input tick{HostTime(seconds(s)), capture::Tick{}};
+      record::append_entry(tick, sequence++, journal);
+    }
+  };
+  began("first");
+  lived(100, 130);
+  began("first");  // the program alone
+  lived(135, 140);
+  began("second");
+  lived(10, 15);
+  write_journal(journal);
+  (void)run({"check", flight().string(), "--json"});
+  EXPECT_DOUBLE_EQ(nlohmann::json::parse(printed)["duration_s"], 45);
+}
+
 TEST_F(FlightCommand, CheckSaysThatNoPhotoWasTaken) {
   const std::string whole = journal();
   write_journal(whole.substr(0, whole.size() / 50));
