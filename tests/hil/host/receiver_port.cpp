@@ -3,6 +3,7 @@
 
 #include <sys/socket.h>
 
+#include <array>
 #include <utility>
 
 namespace plumbline::hil {
@@ -30,8 +31,17 @@ void ReceiverPort::play(const std::stop_token& stop) {
   while (const auto piece = source_()) {
     while (!stop.stop_requested() && clock_.now() < piece->time) clock_.wait(signal_, piece->time);
     if (stop.stop_requested()) return;
+    ignore_guest();
     if (clock_.now() - piece->time > kOld) continue;
     ::send(socket_.get(), piece->bytes.data(), piece->bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+  }
+}
+
+// A port that was just opened echoes for a moment, byte by byte, and QEMU stands still with all of
+// its machine while a few hundred of such pieces wait here.
+void ReceiverPort::ignore_guest() {
+  std::array<char, 4096> bytes{};
+  while (::recv(socket_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT) > 0) {
   }
 }
 

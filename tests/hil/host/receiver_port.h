@@ -13,7 +13,7 @@
 namespace plumbline::hil {
 
 // Plays a receiver's line, in real time and on a thread of its own, into the socket behind QEMU's
-// usb-serial device. What the guest does not take is lost, as on a line.
+// usb-serial device. What the guest does not take is lost, as on a line; what it sends is ignored.
 class ReceiverPort {
  public:
   ReceiverPort(posix::Descriptor socket, sim::LineSource source);
@@ -21,6 +21,7 @@ class ReceiverPort {
 
  private:
   void play(const std::stop_token& stop);
+  void ignore_guest();
 
   posix::Descriptor socket_;
   sim::LineSource source_;
