@@ -66,7 +66,7 @@ sim::GnssStreamOptions Drone::receiver_options() const {
 
 bool Drone::board(const std::string& sockets) {
   leave();
-  posix::Descriptor port = connect_to(sockets + "/gnss");
+  posix::Descriptor port = connect_patiently(sockets + "/gnss");
   if (!port.is_open() || !link_.open(sockets + "/camera")) return false;
   receiver_ = std::make_unique<ReceiverPort>(
       std::move(port), [stream = stream_] { return std::optional(stream->next()); });

@@ -6,17 +6,13 @@
 
 #include <algorithm>
 #include <array>
-#include <thread>
 
 #include "tests/hil/host/usbredir.h"
 
 namespace plumbline::hil {
 
 bool LineSocket::open(const std::string& path) {
-  for (int tries = 0; tries < 300 && !socket_.is_open(); ++tries) {
-    socket_ = connect_to(path);
-    if (!socket_.is_open()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
-  }
+  socket_ = connect_patiently(path);
   return socket_.is_open();
 }
 

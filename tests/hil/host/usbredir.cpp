@@ -31,6 +31,15 @@ posix::Descriptor connect_to(const std::string& path) {
   return socket;
 }
 
+posix::Descriptor connect_patiently(const std::string& path) {
+  posix::Descriptor socket = connect_to(path);
+  for (int tries = 0; tries < 300 && !socket.is_open(); ++tries) {
+    std::this_thread::sleep_for(milliseconds(100));
+    socket = connect_to(path);
+  }
+  return socket;
+}
+
 std::uint64_t number_at(std::string_view bytes, std::size_t at, int count) {
   std::uint64_t value = 0;
   for (int i = count - 1; i >= 0; --i) {
@@ -41,10 +50,7 @@ std::uint64_t number_at(std::string_view bytes, std::size_t at, int count) {
 }
 
 bool RedirLink::open(const std::string& socket_path) {
-  for (int tries = 0; tries < 300 && !socket_.is_open(); ++tries) {
-    socket_ = connect_to(socket_path);
-    if (!socket_.is_open()) std::this_thread::sleep_for(milliseconds(100));
-  }
+  socket_ = connect_patiently(socket_path);
   return socket_.is_open() && greet();
 }
 

@@ -37,6 +37,8 @@ std::uint64_t number_at(std::string_view bytes, std::size_t at, int count);
 
 // Closed where nobody listens there.
 posix::Descriptor connect_to(const std::string& socket_path);
+// The same, tried for 30 s: QEMU makes its sockets in its own time.
+posix::Descriptor connect_patiently(const std::string& socket_path);
 
 // Packets of the usbredir protocol (its document: usb-redirection-protocol.md of usbredir).
 enum class Redir : std::uint32_t {
