@@ -106,6 +106,9 @@ hil_start_system() {
   (hil_qemu "$work" "$@") </dev/null >"$work/qemu.log" 2>&1 &
   disown
   hil_await 10 [ -s "$work/qemu.pid" ] || { cat "$work/qemu.log" >&2; return 1; }
+  # QEMU says that it runs before it has made them all.
+  local name
+  for name in gnss camera qmp orders status; do hil_await 30 [ -S "$hil_sockets/$name" ]; done
 }
 
 # hil_kill SIGNAL PIDFILE: returns when it is gone.

@@ -85,18 +85,19 @@ int truth(const Arguments& a) {
   if (!taken) return fail(taken.error());
   const UvcMode mode = mode_of(*flight, a.drone);
   const auto made = moments_to_show(*flight, heights_m_of(a.drone), mode);
+  bool all_made = true;
   for (const auto& photo : *taken) {
     const double height_m = flight->pose_at(photo.seconds).centre_m.z();
     const auto moment = static_cast<int>(std::lround(photo.seconds * mode.frames_per_s));
+    const bool is_made = std::binary_search(made.begin(), made.end(), moment);
+    all_made = all_made && is_made;
     std::printf("%s  %7.2f s  %6.2f m%s\n", photo.photo.c_str(), photo.seconds, height_m,
-                std::binary_search(made.begin(), made.end(), moment)
-                    ? ""
-                    : "  NOT MADE AHEAD: enlarged from another");
+                is_made ? "" : "  FAILED: not made ahead, but enlarged from another");
   }
   if (const Status written = write_truth(*flight, *taken, recording); !written) {
     return fail(written.error());
   }
-  return 0;
+  return all_made ? 0 : 1;
 }
 
 // The quantile of chi-square that lies where `normal` lies (Wilson and Hilferty 1931).
