@@ -45,6 +45,11 @@ std::string survivor(const std::string& durable, const std::string& now, Random&
   return out;
 }
 
+// Of a file that was shortened.
+void give_back_memory(std::string& content) {
+  if (content.capacity() > 4 * content.size()) content.shrink_to_fit();
+}
+
 }  // namespace
 
 // A file of the disk, which outlives it.
@@ -100,6 +105,7 @@ Status SimDisk::truncate(const std::string& path, std::uint64_t length) {
   const ContentPointer content = file_at(path);
   if (!content) return fault("shorten", path, "there is no such file or folder");
   content->now.resize(length);
+  give_back_memory(content->now);
   return Done{};
 }
 
@@ -166,7 +172,7 @@ Result<std::vector<std::string>> SimDisk::list(const std::string& folder) {
 Result<std::uint64_t> SimDisk::free_bytes() {
   const std::lock_guard lock(mutex_);
   if (off_) return fault("ask for the free space of", "", "the power is off");
-  const std::uint64_t used = used_bytes();
+  const std::uint64_t used = used_locked();
   return used < capacity_ ? capacity_ - used : 0;
 }
 
@@ -186,9 +192,28 @@ void SimDisk::slow_down(std::chrono::nanoseconds each_sync, Wait wait) {
   wait_ = std::move(wait);
 }
 
+void SimDisk::take_away(const std::string& folder) {
+  const std::lock_guard lock(mutex_);
+  const std::string inside = folder + '/';
+  const auto is_in = [&](const std::string& path) {
+    return path == folder || path.starts_with(inside);
+  };
+  std::erase_if(names_, [&](const auto& name) { return is_in(name.first); });
+  std::erase_if(durable_names_, [&](const auto& name) { return is_in(name.first); });
+  std::erase_if(changes_, [&](Change& change) {
+    std::erase_if(change.names, [&](const auto& name) { return is_in(name.first); });
+    return change.names.empty();
+  });
+}
+
 std::uint64_t SimDisk::operations() const {
   const std::lock_guard lock(mutex_);
   return operations_;
+}
+
+std::uint64_t SimDisk::used_bytes() const {
+  const std::lock_guard lock(mutex_);
+  return used_locked();
 }
 
 std::unique_ptr<SimDisk> SimDisk::after_power_cut(Random& random) const {
@@ -259,7 +284,7 @@ void SimDisk::change(const std::string& folder,
   changes_.push_back({folder, std::move(names)});
 }
 
-std::uint64_t SimDisk::used_bytes() const {
+std::uint64_t SimDisk::used_locked() const {
   std::uint64_t used = 0;
   for (const auto& [path, entry] : names_) used += entry.file ? entry.file->now.size() : 0;
   return used;
@@ -272,7 +297,7 @@ Status SimDisk::append(Content& content, const std::string& path, std::string_vi
     if (off_ && !was_off) content.now += bytes.substr(0, bytes.size() / 2);
     return begun;
   }
-  const std::uint64_t used = used_bytes();
+  const std::uint64_t used = used_locked();
   const std::uint64_t space = used < capacity_ ? capacity_ - used : 0;
   content.now += bytes.substr(0, space);
   if (bytes.size() > space) return fault("write", path, "the disk is full; make space on it");
@@ -293,6 +318,7 @@ Status SimDisk::sync(Content& content, const std::string& path) {
     return begun;
   }
   content.durable = content.now;
+  give_back_memory(content.durable);
   return Done{};
 }
 

@@ -44,6 +44,8 @@ class SimDisk : public Storage {
 
   void fail(std::uint64_t operation, DiskFault fault);
   void set_capacity(std::uint64_t bytes);
+  // Somebody takes a folder away, with all that is in it, and brings that to the disk.
+  void take_away(const std::string& folder);
 
   // From now on each sync, of a file or a folder, takes so long: before it takes effect, `wait`
   // lets the time pass (a thread sleeps, a virtual clock runs on) on the caller's thread. Meanwhile
@@ -52,6 +54,7 @@ class SimDisk : public Storage {
   void slow_down(std::chrono::nanoseconds each_sync, Wait wait);
 
   std::uint64_t operations() const;
+  std::uint64_t used_bytes() const;  // in all files
 
   // The disk as it comes back when power was cut now. Of what was not synced each sector of 512
   // bytes is kept or not, or torn within; each name made, changed or removed is kept or not.
@@ -83,7 +86,7 @@ class SimDisk : public Storage {
   bool has_folder(const std::string& path) const;
   void change(const std::string& folder,
               std::vector<std::pair<std::string, std::optional<Entry>>> names);
-  std::uint64_t used_bytes() const;
+  std::uint64_t used_locked() const;
   Status append(Content& content, const std::string& path, std::string_view bytes);
   Status sync(Content& content, const std::string& path);
 

@@ -44,8 +44,9 @@ flight::SessionOptions session_options(const config::Config& config, const std::
 }
 
 Daemon::Daemon(const config::Config& config, flight::Devices devices, SingleInstance instance,
-               DaemonEvents own)
+               DaemonEvents own, const DaemonOptions& options)
     : config_(config),
+      options_(options),
       devices_(devices),
       instance_(std::move(instance)),
       starts_(config.status.file + ".starts", boot_id()),
@@ -61,10 +62,12 @@ Daemon::~Daemon() {
 }
 
 Result<std::unique_ptr<Daemon>> Daemon::start(const config::Config& config, const std::string& text,
-                                              flight::Devices devices, DaemonEvents own) {
+                                              flight::Devices devices, DaemonEvents own,
+                                              const DaemonOptions& options) {
   auto instance = SingleInstance::in(config.recording.folder);
   if (!instance) return instance.error();
-  std::unique_ptr<Daemon> daemon(new Daemon(config, devices, std::move(*instance), std::move(own)));
+  std::unique_ptr<Daemon> daemon(
+      new Daemon(config, devices, std::move(*instance), std::move(own), options));
   const Status begun = daemon->begin(text);
   if (begun) return daemon;
   daemon->starts_.end_well();  // a refusal, which leaving something out would not help
@@ -99,6 +102,7 @@ bool Daemon::must_be_reduced() {
 Result<flight::SessionOptions> Daemon::options_for_session(const std::string& text) const {
   flight::SessionOptions options = session_options(config_, text);
   options.round_every = kRoundEvery;
+  options.threads = options_.threads;
   if (config_.camera.calibration.empty()) return options;
   auto calibration = ingest::read_text_file(config_.camera.calibration);
   if (!calibration) return calibration.error();

@@ -27,6 +27,11 @@ struct DaemonEvents {
   std::function<void(const std::string& folder)> ended = [](const auto&) {};  // a flight
 };
 
+struct DaemonOptions {
+  // Storing and encoding on threads of their own. On a simulated clock they are done in between.
+  bool threads = true;
+};
+
 // The daemon: a session with what stands around it. Devices are handed in.
 class Daemon {
  public:
@@ -34,7 +39,8 @@ class Daemon {
   // After three failures within a minute it captures, and leaves out advice and measuring.
   static Result<std::unique_ptr<Daemon>> start(const config::Config& config,
                                                const std::string& text, flight::Devices devices,
-                                               DaemonEvents own = {});
+                                               DaemonEvents own = {},
+                                               const DaemonOptions& options = {});
   ~Daemon();
 
   // Until stop(), from any thread.
@@ -52,7 +58,7 @@ class Daemon {
 
  private:
   Daemon(const config::Config& config, flight::Devices devices, SingleInstance instance,
-         DaemonEvents own);
+         DaemonEvents own, const DaemonOptions& options);
 
   Status begin(const std::string& text);
   Result<flight::SessionOptions> options_for_session(const std::string& text) const;
@@ -81,6 +87,7 @@ class Daemon {
   void look_at_picture(int rows);
 
   config::Config config_;
+  DaemonOptions options_;
   flight::Devices devices_;
   SingleInstance instance_;
   StartHistory starts_;

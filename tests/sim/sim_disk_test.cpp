@@ -212,5 +212,21 @@ TEST(SimDisk, MayLoseWhatASlowSyncWasSavingWhenThePowerWasCut) {
   EXPECT_LT(kept, 90);
 }
 
+TEST(SimDisk, IsWithoutAFolderThatWasTakenAwayAlsoAfterAPowerCut) {
+  Random random(3, 1);
+  SimDisk disk;
+  for (const char* folder : {"0001", "00011"}) {
+    ASSERT_TRUE(disk.make_folder(folder));
+    ASSERT_TRUE(publish(disk, folder + std::string("/file"), "bytes"));
+  }
+  auto unsynced = disk.create("0001/other");
+  EXPECT_EQ(disk.used_bytes(), 10u);
+  disk.take_away("0001");
+  EXPECT_EQ(*disk.list(""), std::vector<std::string>{"00011"});
+  EXPECT_EQ(disk.used_bytes(), 5u);
+  ASSERT_TRUE(disk.sync_folder(""));
+  EXPECT_EQ(*disk.after_power_cut(random)->list(""), std::vector<std::string>{"00011"});
+}
+
 }  // namespace
 }  // namespace plumbline::sim
