@@ -71,8 +71,9 @@ Status make_the_camera(const config::Config& config, Devices& devices) {
     devices.camera = devices.bench->make_camera(released);
     return Done{};
   }
-  if (config.camera.id.empty()) return Done{};  // any, found later
-  return put(make_camera(config.camera.id, *devices.clock), devices.camera);
+  const std::string& id = config.camera.id;
+  if (id.empty() || id == config::CameraConfig::kNone) return Done{};  // found later, or elsewhere
+  return put(make_camera(id, *devices.clock), devices.camera);
 }
 
 void make_pulses(const std::string& address, Devices& devices) {

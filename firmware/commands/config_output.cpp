@@ -53,6 +53,9 @@ std::string size(const CameraOptions& options) {
 }
 
 std::string camera(const Config& config) {
+  if (config.camera.id == config::CameraConfig::kNone) {
+    return line("camera", {"none here: that on the line keeps its photos"});
+  }
   const CameraOptions& options = config.camera.options;
   return line("camera", {config.camera.id.empty() ? "the first that is found" : config.camera.id,
                          size(options),

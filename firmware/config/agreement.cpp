@@ -39,6 +39,13 @@ void settle_release(Config& config, std::vector<Disagreement>& found) {
                      "that the shutter is wired to."});
     release.release = capture::Release::kNearestFrame;
   }
+  if (release.release == capture::Release::kNearestFrame &&
+      config.camera.id == CameraConfig::kNone) {
+    found.push_back({{{"camera", "id"}, {"release", "by"}},
+                     "without a camera here nothing takes a photo; write by = \"pulse\" and the "
+                     "line to its shutter under [release], or the camera's id."});
+    config.camera.id.clear();
+  }
   if (!release.is_answered && !config.trigger.feedback_line.empty()) {
     found.push_back({{{"release", "answered"}, {"release", "feedback_line"}},
                      "answered = false says that nothing tells of exposures, but there is a "

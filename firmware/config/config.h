@@ -22,7 +22,10 @@ struct ReceiverConfig {
 };
 
 struct CameraConfig {
-  std::string id;  // as make_camera() takes it; "": the first of list_cameras()
+  static constexpr const char* kNone = "none";
+
+  // As make_camera() takes it; "": the first of list_cameras(); kNone: it keeps its photos.
+  std::string id;
   CameraOptions options;
   int jpeg_quality = 95;
   std::string calibration;  // path of a camera.toml that each flight gets a copy of; "": none

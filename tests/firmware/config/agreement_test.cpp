@@ -29,6 +29,13 @@ TEST(Agreement, APulseNeedsALine) {
             capture::Release::kNearestFrame);
 }
 
+TEST(Agreement, WithoutACameraHereAPulseIsNeeded) {
+  const std::string none = "[camera]\nid = \"none\"\n";
+  EXPECT_THAT(fault(none), StartsWith("p.toml:2: without a camera here nothing takes a photo"));
+  const std::string pulse = "[release]\nby = \"pulse\"\nline = \"SHUTTER\"\n";
+  EXPECT_TRUE(parse_config(none + pulse, "").errors.empty());
+}
+
 TEST(Agreement, APilotWhoArmsNeedsALink) {
   EXPECT_THAT(fault("[take_off]\nby = \"pilot\"\n"), StartsWith("p.toml:2: by = \"pilot\" needs"));
   EXPECT_TRUE(
