@@ -14,11 +14,12 @@ hil_system_stamp() {
   {
     for deb in "$hil_release"/deb/*.deb; do dpkg-deb --ctrl-tarfile "$deb" | tar --extract --to-stdout; done
     echo "$hil_version" "${hil_test_drivers[*]}"
-    cat "$hil_source"/tests/hil/guest/{lib.sh,make_system} "$hil_source"/tests/hil/guest/system/*
+    cat "$hil_source"/tests/hil/guest/{lib.sh,make_system} "$hil_source"/tests/hil/guest/system/* \
+      "$hil_release/tests/hil/bench_lines"
   } | sha256sum
 }
 
-# Makes the disk and the initrd where they are missing or old.
+# Makes the disk and the initrd where they are missing or old. Status 3: a Debian cannot be had.
 hil_system() {
   local as_root=() stamp
   if ! ls "$hil_release"/deb/*.deb >/dev/null 2>&1; then
@@ -29,9 +30,9 @@ hil_system() {
   [ "$(cat "$hil_system_folder/stamp" 2>/dev/null || true)" = "$stamp" ] && return
   mkdir -p "$hil_system_folder"
   rm -f "$hil_system_folder/stamp"
-  hil_kernel >/dev/null
+  hil_kernel >/dev/null || return
   [ "$(id -u)" -eq 0 ] || as_root=(sudo)
-  "${as_root[@]}" "$hil_source/tests/hil/guest/make_system"
+  "${as_root[@]}" "$hil_source/tests/hil/guest/make_system" || return
   echo "$stamp" >"$hil_system_folder/stamp"
 }
 
@@ -87,12 +88,13 @@ hil_qemu() {
     $(hil_socket qmp) -mon chardev=qmp,mode=control \
     $(hil_socket orders) -device virtserialport,chardev=orders,name=orders \
     $(hil_socket status) -device virtserialport,chardev=status,name=status \
+    $(hil_socket lines) -device virtserialport,chardev=lines,name=lines \
     -chardev "file,id=files,path=$work/files.tar" -device virtserialport,chardev=files,name=files \
     "$@"
 }
 
 # hil_start_system WORK [QEMU ARGUMENT...]: power on. The disk is WORK/disk, a new one where there is
-# none. Leaves in hil_sockets the folder of the sockets gnss, camera, qmp, orders and status, in
+# none. Leaves in hil_sockets the folder of the sockets gnss, camera, qmp, orders, status and lines, in
 # WORK/sockets a link to it, and in WORK the kernel's console and what the guest hands out. Returns
 # when the sockets are there. USB devices are plugged in while a program holds their socket.
 hil_start_system() {
@@ -108,7 +110,7 @@ hil_start_system() {
   hil_await 10 [ -s "$work/qemu.pid" ] || { cat "$work/qemu.log" >&2; return 1; }
   # QEMU says that it runs before it has made them all.
   local name
-  for name in gnss camera qmp orders status; do hil_await 30 [ -S "$hil_sockets/$name" ]; done
+  for name in gnss camera qmp orders status lines; do hil_await 30 [ -S "$hil_sockets/$name" ]; done
 }
 
 # hil_kill SIGNAL PIDFILE: returns when it is gone.

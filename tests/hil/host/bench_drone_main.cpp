@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "tests/hil/host/flight_truth.h"
 #include "tests/hil/host/flown_bench.h"
@@ -55,7 +56,8 @@ int fly(Arguments& a) {
     const Json json = {{"flight", flown->flight},
                        {"photos_stored", flown->photos_stored},
                        {"stored_at_cut", flown->stored_at_cut},
-                       {"begun_ns", flown->begun_ns}};
+                       {"begun_ns", flown->begun_ns},
+                       {"exposures_s", flown->exposures_s}};
     std::ofstream(flown_json(a)) << json.dump(1) << "\n";
     status = 0;
   } else {
@@ -63,6 +65,14 @@ int fly(Arguments& a) {
   }
   std::fflush(nullptr);
   std::_Exit(status);  // QEMU goes on, and the camera's thread would wait for its end
+}
+
+int stand(const Arguments& a) {
+  const auto flight = flight_of(a.drone);
+  if (!flight) return fail(flight.error());
+  Drone drone(*flight, a.drone);
+  if (!drone.board(a.flown.sockets)) return fail({"QEMU takes neither receiver nor camera."});
+  for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
 }
 
 int order(const Arguments& a) {
@@ -134,6 +144,63 @@ int judge(const Arguments& a) {
   return inside ? 0 : 1;
 }
 
+// What the journal says of a photo, from `plumbline check --dump`.
+struct Said {
+  std::string line;
+  double height_m = NAN, sigma_m = NAN;
+};
+
+std::vector<Said> photos_said(const std::string& dump) {
+  std::vector<Said> photos;
+  std::ifstream file(dump);
+  for (std::string line; std::getline(file, line);) {
+    const std::size_t photo = line.find(" photo=");
+    if (line.find(" taken ") == std::string::npos || photo == std::string::npos) continue;
+    const auto value = [&](const std::string& key) {
+      const std::size_t at = line.find(' ' + key + '=');
+      return at == std::string::npos ? NAN : std::atof(line.c_str() + at + key.size() + 2);
+    };
+    if (value("photo") < 1) continue;  // a test pulse, on the ground
+    photos.push_back({line.substr(photo + 1, line.find(" wanted=") - photo - 1), value("height_m"),
+                      value("sigma_height_m")});
+  }
+  return photos;
+}
+
+// Of a flight whose camera kept its photos: each was exposed where the journal says.
+int judge_exposures(const Arguments& a) {
+  const auto flown = read_json(flown_json(a));
+  const auto flight = flight_of(a.drone);
+  if (!flown) return fail(flown.error());
+  if (!flight) return fail(flight.error());
+  const auto exposures_s = flown->value("exposures_s", std::vector<double>{});
+  const std::vector<Said> photos = photos_said(a.flown.work + "/journal.txt");
+  if (photos.empty() || exposures_s.size() < photos.size()) {
+    return fail({"The journal knows of " + std::to_string(photos.size()) +
+                 " photos, and the camera of " + std::to_string(exposures_s.size()) + "."});
+  }
+  constexpr double k99 = 2.3263;  // one-sided
+  double squares = 0, squares_m2 = 0;
+  const std::size_t tests = exposures_s.size() - photos.size();
+  for (std::size_t i = 0; i < photos.size(); ++i) {
+    const double true_m = flight->antenna_at(exposures_s[tests + i]).height_ellipsoidal_m -
+                          flight->antenna_at(0).height_ellipsoidal_m;
+    const double off_m = photos[i].height_m - true_m;
+    squares += std::pow(off_m / photos[i].sigma_m, 2);
+    squares_m2 += off_m * off_m;
+    std::printf("%-36s exposed at %6.3f m, by the journal at %6.3f m, sigma %.3f m\n",
+                photos[i].line.c_str(), true_m, photos[i].height_m, photos[i].sigma_m);
+  }
+  const auto count = static_cast<double>(photos.size());
+  const double limit = chi_square(count, k99);
+  std::printf(
+      "%zu photos of a camera released by the line, RMSE of their heights %.3f m; squares over "
+      "variances %.1f (99 %% below %.1f)%s\n",
+      photos.size(), std::sqrt(squares_m2 / count), squares, limit,
+      squares <= limit ? "" : ": NOT AS STATED");
+  return squares <= limit ? 0 : 1;
+}
+
 }  // namespace
 }  // namespace plumbline::hil
 
@@ -148,15 +215,27 @@ int main(int count, char** values) {
   app.add_option("--width", a.drone.width_px, "of the camera, pixels");
   app.add_option("--rate", a.drone.frames_per_s, "of the camera, frames per second");
   app.add_option("--seed", a.drone.seed, "of the flight");
+  app.add_flag("--by-pulse", a.drone.by_pulse,
+               "the camera is released by the shutter line, and keeps its photos");
   app.add_option("--work", a.flown.work, "folder of this flight");
   app.add_option("--sockets", a.flown.sockets, "folder of QEMU's sockets");
   int status = 0;
   CLI::App* flying = app.add_subcommand("fly", "configures, flies and lands");
-  flying->add_option("--fault", a.faults, "cable, camera, stall, disk, power; cable@40: at 40 m")
+  flying
+      ->add_option("--fault", a.faults,
+                   "cable, camera, stall, disk, power; cable@40: at 40 m; cable@40s: after 40 s")
       ->allow_extra_args(false);
   flying->add_option("--cut-power", a.flown.cut_power,
                      "command that takes the machine's power and starts it again");
   flying->callback([&] { status = fly(a); });
+  app.add_subcommand("duration", "of the flight, s")->callback([&] {
+    const auto flight = flight_of(a.drone);
+    if (flight) std::printf("%.1f\n", flight->duration_s());
+    status = flight ? 0 : fail(flight.error());
+  });
+  app.add_subcommand("stand", "stays on the ground, until it is killed")->callback([&] {
+    status = stand(a);
+  });
   app.add_subcommand("heights", "of the plan")->callback([&] {
     for (const double height_m : heights_m_of(a.drone)) std::printf("%.2f\n", height_m);
   });
@@ -169,6 +248,9 @@ int main(int count, char** values) {
   });
   app.add_subcommand("judge", "holds what was measured against the truth")->callback([&] {
     status = judge(a);
+  });
+  app.add_subcommand("judge-exposures", "the same of a flight by pulses")->callback([&] {
+    status = judge_exposures(a);
   });
   CLI11_PARSE(app, count, values);
   return status;

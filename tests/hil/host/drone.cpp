@@ -44,11 +44,8 @@ std::vector<double> heights_m_of(const DroneOptions& options) {
 }
 
 Drone::Drone(const sim::BenchFlight& flight, const DroneOptions& options)
-    : flight_(flight),
-      options_(options),
-      mode_(mode_of(flight, options)),
-      view_(flight, heights_m_of(options), mode_),
-      took_off_s_(kNeverS) {
+    : flight_(flight), options_(options), mode_(mode_of(flight, options)), took_off_s_(kNeverS) {
+  if (!options.by_pulse) view_ = std::make_unique<FlightView>(flight, heights_m_of(options), mode_);
   const auto path = [this](double s) { return flight_.antenna_at(s - took_off_s_); };
   stream_ = std::make_shared<sim::GnssStream>(path, receiver_options(), options.seed);
 }
@@ -67,12 +64,15 @@ sim::GnssStreamOptions Drone::receiver_options() const {
 bool Drone::board(const std::string& sockets) {
   leave();
   posix::Descriptor port = connect_patiently(sockets + "/gnss");
-  if (!port.is_open() || !link_.open(sockets + "/camera")) return false;
+  const bool eyes =
+      options_.by_pulse ? lines_.open(sockets + "/lines", made_) : link_.open(sockets + "/camera");
+  if (!port.is_open() || !eyes) return false;
   receiver_ = std::make_unique<ReceiverPort>(
       std::move(port), [stream = stream_] { return std::optional(stream->next()); });
+  if (options_.by_pulse) return true;
   camera_ = std::thread([this] {
     UvcCamera(
-        link_, mode_, [this](const UvcExposure& exposure) { return view_.expose(exposure); },
+        link_, mode_, [this](const UvcExposure& exposure) { return view_->expose(exposure); },
         camera_orders_)
         .run();
   });
@@ -81,6 +81,7 @@ bool Drone::board(const std::string& sockets) {
 
 void Drone::leave() {
   receiver_.reset();
+  lines_.close();
   if (camera_.joinable()) camera_.join();
   link_ = RedirLink();
 }
@@ -88,7 +89,7 @@ void Drone::leave() {
 Drone::SteadyTime Drone::take_off() {
   const SteadyTime at = mode_.moment_after(SteadyClock::now() + kUntilTakeOff);
   took_off_s_ = std::chrono::duration<double>(at - made_).count();
-  view_.begin(at);
+  if (view_) view_->begin(at);
   return at;
 }
 

@@ -13,6 +13,7 @@
 #include "edge/base/result.h"
 #include "sim/bench_flight.h"
 #include "sim/gnss_stream.h"
+#include "tests/hil/host/far_lines.h"
 #include "tests/hil/host/flight_view.h"
 #include "tests/hil/host/receiver_port.h"
 #include "tests/hil/host/uvc_camera.h"
@@ -27,6 +28,9 @@ struct DroneOptions {
   int width_px = 1600;  // of the camera; its height is that of the profile's
   int frames_per_s = 5;
   std::uint64_t seed = 1;
+  // Released by the shutter line, and keeping its photos; with a pulse per second. Else the camera
+  // runs freely on USB.
+  bool by_pulse = false;
 };
 Result<sim::BenchFlight> flight_of(const DroneOptions& options);
 UvcMode mode_of(const sim::BenchFlight& flight, const DroneOptions& options);
@@ -48,8 +52,10 @@ class Drone {
   // When QEMU has ended.
   void leave();
 
-  const FlightView& view() const { return view_; }
+  // What the camera on USB is going to see; null where there is none.
+  const FlightView* view() const { return view_.get(); }
   UvcOrders& camera() { return camera_orders_; }
+  const FarLines& lines() const { return lines_; }
 
   // Climbs soon; the flight's time 0.
   SteadyTime take_off();
@@ -64,12 +70,13 @@ class Drone {
   const sim::BenchFlight& flight_;
   DroneOptions options_;
   UvcMode mode_;
-  FlightView view_;
+  std::unique_ptr<FlightView> view_;
   UvcOrders camera_orders_;
   SteadyTime made_ = std::chrono::steady_clock::now();
   std::atomic<double> took_off_s_;  // after it was made
   std::shared_ptr<sim::GnssStream> stream_;
   std::unique_ptr<ReceiverPort> receiver_;
+  FarLines lines_;
   RedirLink link_;
   std::thread camera_;
 };

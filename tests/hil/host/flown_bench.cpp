@@ -2,6 +2,8 @@
 #include "tests/hil/host/flown_bench.h"
 
 #include <array>
+#include <cstdlib>
+#include <string_view>
 #include <utility>
 
 #include "firmware/ingest/camera_toml.h"
@@ -15,6 +17,7 @@ using std::chrono::seconds;
 
 constexpr seconds kOrder(60);
 constexpr milliseconds kLook(100);  // at the drone, between two lines of the status
+constexpr double kLandsWithin_s = 30;
 // The flight's folder is closed some seconds after it stands on the ground.
 constexpr seconds kAfterLanding(120);
 
@@ -44,15 +47,24 @@ std::string seconds_text(double value) {
 
 double in_s(std::chrono::nanoseconds time) { return std::chrono::duration<double>(time).count(); }
 
-// What its user changes in the installed configuration: the camera's calibration, and the heights.
+// What its user changes in the installed configuration: the camera's calibration, the heights, and
+// the lines where there are some.
 std::string edits_for(const DroneOptions& options) {
   std::string heights;
   for (const double height_m : heights_m_of(options)) {
     heights += (heights.empty() ? "" : ", ") + std::to_string(height_m);
   }
-  return "s|^#calibration = .*|calibration = \"/etc/plumbline/camera.toml\"|; "
-         "s|^#heights_m = .*|heights_m = [" +
-         heights + "]|";
+  std::string edits =
+      "s|^#calibration = .*|calibration = \"/etc/plumbline/camera.toml\"|; "
+      "s|^#heights_m = .*|heights_m = [" +
+      heights + "]|";
+  if (options.by_pulse) {
+    edits +=
+        "; s|^#id = .*|id = \"none\"|; s|^#by = \"frame\"|by = \"pulse\"|; s|^#line = .*|line = "
+        "\"SHUTTER\"|; "
+        "s|^#feedback_line = .*|feedback_line = \"FLASH\"|; s|^#pps = .*|pps = \"gpio:PPS\"|";
+  }
+  return edits;
 }
 
 }  // namespace
@@ -71,18 +83,22 @@ void Timeline::say(const std::string& text) {
 }
 
 std::optional<Fault> fault_of(const std::string& text) {
-  static const Fault kKnown[] = {{"cable", 32, 4, 10, 2},
-                                 {"camera", 55, 6, 1, 0},
-                                 {"stall", 55, 6, 1, 0},
-                                 {"disk", 55, 6, 1, 0},
-                                 {"power", 55, 0, 1, 0}};
+  static const Fault kKnown[] = {{"cable", 32, {}, 4, 10, 2},
+                                 {"camera", 55, {}, 6, 1, 0},
+                                 {"stall", 55, {}, 6, 1, 0},
+                                 {"disk", 55, {}, 6, 1, 0},
+                                 {"power", 55, {}, 0, 1, 0}};
   const std::size_t at = text.find('@');
   for (Fault fault : kKnown) {
     if (text.substr(0, at) != fault.name) continue;
-    if (at != std::string::npos) {
-      fault.from_height_m = std::atof(text.c_str() + at + 1);
-      fault.times = 1;
-    }
+    if (at == std::string::npos) return fault;
+    char* unit = nullptr;
+    const double from = std::strtod(text.c_str() + at + 1, &unit);
+    fault.times = 1;
+    const std::string_view rest(unit);
+    if (rest == "s") fault.from_s = from;
+    if (rest.empty()) fault.from_height_m = from;
+    if (!rest.empty() && rest != "s") return std::nullopt;
     return fault;
   }
   return std::nullopt;
@@ -104,6 +120,9 @@ Result<Flown> FlownBench::fly() {
        {&FlownBench::board, &FlownBench::configure, &FlownBench::take_off, &FlownBench::land}) {
     if (Status done = (this->*step)(); !done) return done.error();
   }
+  for (const SteadyTime exposed : drone_.lines().exposures()) {
+    flown_.exposures_s.push_back(drone_.seconds(exposed));
+  }
   return flown_;
 }
 
@@ -113,12 +132,13 @@ Status FlownBench::take_off() {
   };
   const SteadyTime deadline = SteadyClock::now() + options_.ready_within;
   if (Status ready = wait_until("is not ready", is_ready, deadline); !ready) return ready;
-  timeline_.say("the daemon is ready; " + std::to_string(drone_.view().made()) + " of " +
-                std::to_string(drone_.view().pictures()) + " pictures are made");
-  const auto all_made = [this](const Json&) {
-    return drone_.view().made() == drone_.view().pictures();
-  };
-  if (Status made = wait_until("has no pictures", all_made, deadline); !made) return made;
+  timeline_.say("the daemon is ready");
+  if (const FlightView* view = drone_.view()) {
+    timeline_.say(std::to_string(view->made()) + " of " + std::to_string(view->pictures()) +
+                  " pictures are made");
+    const auto all_made = [view](const Json&) { return view->made() == view->pictures(); };
+    if (Status made = wait_until("has no pictures", all_made, deadline); !made) return made;
+  }
   const SteadyTime begun = drone_.take_off();
   timeline_.take_off(begun);
   timeline_.say("the drone's flight begins");
@@ -132,7 +152,10 @@ Status FlownBench::land() {
     const std::string phase = status.value("phase", "");
     has_flown |= phase == "flying";
     flown_.photos_stored = std::max(flown_.photos_stored, status.value("photos_stored", 0));
+    if (phase == "flying") under_way_ = status.value("flight", "");
     flown_.flight = status.value("last_flight", "");
+    const bool is_over = drone_.seconds(SteadyClock::now()) > flight_.duration_s() + kLandsWithin_s;
+    if (flown_.flight.empty() && is_over) flown_.flight = cut_on_ground_;
     return has_flown && phase != "flying" && !flown_.flight.empty();
   };
   const double left_s = flight_.duration_s() - drone_.seconds(SteadyClock::now());
@@ -212,10 +235,15 @@ void FlownBench::do_faults() {
   for (Doing& doing : doings_) do_fault(doing);
 }
 
+bool FlownBench::reaches(const Fault& fault, SteadyTime now) const {
+  if (fault.from_s) return drone_.seconds(now) >= *fault.from_s;
+  return drone_.height_m(now) >= fault.from_height_m;
+}
+
 void FlownBench::do_fault(Doing& doing) {
   const Fault& fault = doing.fault;
   const SteadyTime now = SteadyClock::now();
-  if (!doing.reached && drone_.height_m(now) >= fault.from_height_m) {
+  if (!doing.reached && reaches(fault, now)) {
     doing.reached = true;
     doing.next = now;
   }
@@ -255,6 +283,10 @@ Status FlownBench::end_fault(const std::string& name) {
 // The drone flies on while its computer starts anew.
 Status FlownBench::cut_power() {
   flown_.stored_at_cut = flown_.photos_stored;
+  // The daemon that is started there may have nothing to land.
+  const SteadyTime now = SteadyClock::now();
+  const bool comes_down = drone_.seconds(now) > flight_.duration_s() / 2;
+  if (comes_down && drone_.height_m(now) < 1) cut_on_ground_ = under_way_;
   timeline_.say("power is cut, with " + std::to_string(flown_.stored_at_cut) +
                 " photos said to be stored");
   if (std::system(options_.cut_power.c_str()) != 0) {

@@ -46,16 +46,18 @@ class Timeline {
   std::optional<SteadyTime> took_off_;
 };
 
-// What is done to a flight, once or several times, from the first time that the drone is so high.
+// What is done to a flight, once or several times, from the first time that the drone is so high,
+// or from so many seconds after the flight's beginning.
 struct Fault {
   std::string name;
   double from_height_m = 55;
+  std::optional<double> from_s;
   double lasts_s = 6;
   int times = 1;
   double apart_s = 0;  // from the end of one to the beginning of the next
 };
 // "cable" (of the receiver, pulled ten times), "camera", "stall", "disk", "power"; "cable@40":
-// once, at 40 m. Empty for any other text.
+// once, at 40 m; "cable@40s": once, after 40 s. Empty for any other text.
 std::optional<Fault> fault_of(const std::string& text);
 
 struct FlownOptions {
@@ -69,8 +71,9 @@ struct FlownOptions {
 struct Flown {
   std::string flight;  // its folder's name
   int photos_stored = 0;
-  int stored_at_cut = 0;      // photos of which the daemon had said so when its power went
-  std::int64_t begun_ns = 0;  // the flight's time 0, by the clock of the exposure marks
+  int stored_at_cut = 0;            // photos of which the daemon had said so when its power went
+  std::int64_t begun_ns = 0;        // the flight's time 0, by the clock of the exposure marks
+  std::vector<double> exposures_s;  // since then, of a camera that is released by pulses
 };
 
 // A flight of the installed program in the virtual computer that has been started: configures it as
@@ -96,12 +99,13 @@ class FlownBench {
   Status land();
   struct Doing {
     Fault fault;
-    bool reached = false;  // its height
+    bool reached = false;  // its height, or time
     int begun = 0;         // so many times
     bool is_on = false;
     SteadyTime next{};  // its beginning, or the end of one that is on
   };
   void do_faults();
+  bool reaches(const Fault& fault, SteadyTime now) const;
   void do_fault(Doing& doing);
   Status begin_fault(const std::string& name);
   Status end_fault(const std::string& name);
@@ -116,6 +120,8 @@ class FlownBench {
   Cables cables_;
   LineSocket status_lines_;
   std::string shown_;
+  std::string under_way_;      // the folder of the flight, as the daemon last said
+  std::string cut_on_ground_;  // that of a flight whose power went when it had come down again
   Flown flown_;
   std::vector<Doing> doings_;
 };

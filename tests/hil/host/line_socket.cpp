@@ -29,7 +29,7 @@ bool LineSocket::say(std::string_view line) {
 }
 
 std::optional<std::string> LineSocket::next(std::chrono::steady_clock::time_point deadline) {
-  using std::chrono::milliseconds;
+  using std::chrono::nanoseconds;
   for (;;) {
     if (const std::size_t end = received_.find('\n'); end != std::string::npos) {
       std::string line = received_.substr(0, end);
@@ -37,11 +37,12 @@ std::optional<std::string> LineSocket::next(std::chrono::steady_clock::time_poin
       if (line.ends_with('\r')) line.pop_back();
       return line;
     }
-    const auto left = std::chrono::ceil<milliseconds>(deadline - std::chrono::steady_clock::now());
-    if (left <= milliseconds(0) || !socket_.is_open()) return std::nullopt;
+    const std::chrono::nanoseconds left = deadline - std::chrono::steady_clock::now();
+    if (left <= nanoseconds(0) || !socket_.is_open()) return std::nullopt;
     pollfd ready{socket_.get(), POLLIN, 0};
-    if (::poll(&ready, 1, static_cast<int>(std::min(left, milliseconds(60000)).count())) <= 0)
-      continue;
+    const auto whole = std::chrono::floor<std::chrono::seconds>(left);
+    const timespec at_most{whole.count(), (left - whole).count()};
+    if (::ppoll(&ready, 1, &at_most, nullptr) <= 0) continue;
     std::array<char, 4096> bytes{};
     const ssize_t size = ::recv(socket_.get(), bytes.data(), bytes.size(), 0);
     if (size <= 0) socket_.close();
