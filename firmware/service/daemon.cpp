@@ -8,7 +8,6 @@
 
 #include "firmware/ingest/text_file.h"
 #include "firmware/service/advice/calibration_size.h"
-#include "firmware/service/disk/disk_space.h"
 
 namespace plumbline::service {
 namespace {
@@ -52,7 +51,8 @@ Daemon::Daemon(const config::Config& config, flight::Devices devices, SingleInst
       starts_(config.status.file + ".starts", boot_id()),
       own_(std::move(own)),
       board_(needs_frames(config), config.capture.take_off),
-      progress_({.needs_frames = needs_frames(config)}) {}
+      progress_({.needs_frames = needs_frames(config)}),
+      space_(config_, devices_.storage, space_events()) {}
 
 Daemon::~Daemon() {
   session_.reset();  // its events reach the others
@@ -135,7 +135,7 @@ void Daemon::advise(AdviserOptions options) {
   adviser_ = std::make_unique<Adviser>(std::move(options), [this](const Advice& advice) {
     board_.advised(advice.sentence);
     tell(advice.sentence);
-    if (devices_.pilot != nullptr) devices_.pilot->say(PilotSeverity::kInfo, advice.short_text);
+    say_to_pilot(PilotSeverity::kInfo, advice.short_text);
   });
 }
 
@@ -162,8 +162,8 @@ void Daemon::measure() {
   events.measured = [this](const Measurer::Measured& measured) {
     const std::string figures = measured.figures ? " " + in_words(*measured.figures) : "";
     show_result("Flight " + measured.flight + ": " + measured.sentence + figures);
-    if (devices_.pilot == nullptr || !measured.figures || measured.was_left) return;
-    devices_.pilot->say(PilotSeverity::kInfo, for_the_pilot(*measured.figures));
+    if (!measured.figures || measured.was_left) return;
+    say_to_pilot(PilotSeverity::kInfo, for_the_pilot(*measured.figures));
   };
   measurer_ = std::make_unique<Measurer>(options, std::move(events));
 }
@@ -191,9 +191,8 @@ void Daemon::tell(const capture::Decision& decision) {
     char height[32];
     std::snprintf(height, sizeof height, "%g m", passed->target.height_m);
     tell(std::string("No photo at ") + height + ": it was left behind; fly there again.");
-    if (devices_.pilot == nullptr) return;
-    devices_.pilot->say(PilotSeverity::kWarning,
-                        std::string("No photo at ") + height + ": fly there again");
+    say_to_pilot(PilotSeverity::kWarning,
+                 std::string("No photo at ") + height + ": fly there again");
   } else if (std::holds_alternative<capture::PhaseChanged>(decision.what)) {
     tell(board_.sentence());
   }
@@ -224,7 +223,7 @@ flight::SessionEvents Daemon::events() {
   events.ended = [this](const std::string& folder) {
     board_.ended(folder);
     own_.ended(folder);
-    lack_is_told_ = false;
+    space_.tell_anew();
     if (!flying_) look_at_space();
     if (measurer_) measurer_->ended(folder);
   };
@@ -244,40 +243,25 @@ void Daemon::heard(const capture::Input& input) {
     }
   } else if (std::holds_alternative<capture::PilotSeen>(input.what)) {
     is_due = true;  // an autopilot that was not there before, or is armed now
-    lack_is_told_ = false;
+    space_.tell_anew();
   }
   if (!is_due || flying_) return;
   looked_ = input.now;
   look_at_space();
 }
 
-Daemon::Space Daemon::space() const {
-  return {photos_that_fit(devices_.storage, photo_size(config_.camera.options, rows_seen_),
-                          config_.recording.keep_free_mb),
-          photos_planned(config_.capture.plan)};
+SpaceWatch::Events Daemon::space_events() {
+  SpaceWatch::Events events;
+  events.found = [this](std::int64_t free_photos, std::int64_t planned) {
+    board_.space(free_photos, planned);
+  };
+  events.told = [this](const std::string& sentence) { tell(sentence); };
+  events.lacks = [this](const std::string& text) { say_to_pilot(PilotSeverity::kWarning, text); };
+  return events;
 }
 
-void Daemon::make_room() {
-  if (!config_.recording.clean_results) return;
-  const int cleaned = clean_results(devices_.storage, [this] { return space().is_enough(); });
-  if (cleaned > 0) tell("The results of " + std::to_string(cleaned) + " old flights made room.");
-}
-
-void Daemon::look_at_space() {
-  Space found = space();
-  if (!found.is_enough() && !lack_is_told_) {
-    make_room();
-    found = space();
-  }
-  if (!found.photos) return;
-  board_.space(*found.photos, found.planned);
-  const bool lacks = !found.is_enough();
-  if (std::exchange(lack_is_told_, lacks) == lacks) return;
-  const std::string room =
-      std::to_string(*found.photos) + " of " + std::to_string(found.planned) + " photos";
-  tell("disk: There is room for " + room + (lacks ? "." : " again."));
-  if (!lacks || devices_.pilot == nullptr) return;
-  devices_.pilot->say(PilotSeverity::kWarning, "Disk: room for " + room);
+void Daemon::say_to_pilot(PilotSeverity severity, const std::string& text) {
+  if (devices_.pilot != nullptr) devices_.pilot->say(severity, text);
 }
 
 void Daemon::look_at_picture(int rows) {
@@ -289,8 +273,7 @@ void Daemon::look_at_picture(int rows) {
     return;
   }
   note(record::Severity::kWarning, "calibration", *other);
-  if (devices_.pilot == nullptr) return;
-  devices_.pilot->say(PilotSeverity::kWarning, "Calibration is for another picture size");
+  say_to_pilot(PilotSeverity::kWarning, "Calibration is for another picture size");
 }
 
 void Daemon::run() {

@@ -12,6 +12,7 @@
 #include "firmware/flight/session.h"
 #include "firmware/service/advice/adviser.h"
 #include "firmware/service/disk/single_instance.h"
+#include "firmware/service/disk/space_watch.h"
 #include "firmware/service/life/progress.h"
 #include "firmware/service/life/start_history.h"
 #include "firmware/service/measuring/measurer.h"
@@ -76,14 +77,9 @@ class Daemon {
   void tell(const capture::Decision& decision);
   void heard(const capture::Input& input);
 
-  struct Space {
-    std::optional<std::int64_t> photos;  // that fit; empty where the disk does not say
-    std::int64_t planned = 0;
-    bool is_enough() const { return photos.value_or(planned) >= planned; }
-  };
-  Space space() const;
-  void make_room();
-  void look_at_space();
+  SpaceWatch::Events space_events();
+  void say_to_pilot(PilotSeverity severity, const std::string& text);
+  void look_at_space() { space_.look(rows_seen_); }
   void look_at_picture(int rows);
 
   config::Config config_;
@@ -100,7 +96,7 @@ class Daemon {
   bool calibration_misfits_ = false;
   bool flying_ = false;
   std::optional<HostTime> looked_;  // at the disk
-  bool lack_is_told_ = false;       // of room on it
+  SpaceWatch space_;
   std::unique_ptr<StatusServer> server_;
   std::unique_ptr<Measurer> measurer_;
   std::unique_ptr<Adviser> adviser_;
