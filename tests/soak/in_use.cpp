@@ -16,7 +16,7 @@ std::atomic<std::int64_t> blocks{0};
 std::atomic<std::int64_t> bytes{0};
 
 void* counted(void* block) {
-  if (block == nullptr) std::abort();
+  if (block == nullptr) std::abort();  // also where a null pointer would be taken for an answer
   ++blocks;
   bytes += static_cast<std::int64_t>(malloc_usable_size(block));
   return block;
@@ -36,7 +36,12 @@ void* operator new(std::size_t size, std::align_val_t alignment) {
   const auto step = static_cast<std::size_t>(alignment);
   return counted(std::aligned_alloc(step, (size + step - 1) / step * step));
 }
+// As std::stable_sort asks for its buffer.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return counted(std::malloc(size == 0 ? 1 : size));
+}
 void operator delete(void* block) noexcept { give_back(block); }
+void operator delete(void* block, const std::nothrow_t&) noexcept { give_back(block); }
 void operator delete(void* block, std::size_t) noexcept { give_back(block); }
 void operator delete(void* block, std::align_val_t) noexcept { give_back(block); }
 void operator delete(void* block, std::size_t, std::align_val_t) noexcept { give_back(block); }
