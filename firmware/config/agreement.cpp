@@ -33,18 +33,18 @@ void settle_heights(Heights& heights, std::vector<Disagreement>& found) {
 
 void settle_release(Config& config, std::vector<Disagreement>& found) {
   capture::ReleaseOptions& release = config.capture.release;
-  if (release.release == capture::Release::kPulse && config.trigger.line.empty()) {
-    found.push_back({{{"release", "by"}, {"release", "line"}},
-                     "by = \"pulse\" needs a line; write line = \"/dev/gpiochip0:17\" or the one "
-                     "that the shutter is wired to."});
-    release.release = capture::Release::kNearestFrame;
-  }
   if (release.release == capture::Release::kNearestFrame &&
       config.camera.id == CameraConfig::kNone) {
     found.push_back({{{"camera", "id"}, {"release", "by"}},
                      "without a camera here nothing takes a photo; write by = \"pulse\" and the "
                      "line to its shutter under [release], or the camera's id."});
     config.camera.id.clear();
+  }
+  if (release.release == capture::Release::kPulse && config.trigger.line.empty()) {
+    found.push_back({{{"release", "by"}, {"release", "line"}},
+                     "by = \"pulse\" needs a line; write line = \"/dev/gpiochip0:17\" or the one "
+                     "that the shutter is wired to."});
+    release.release = capture::Release::kNearestFrame;
   }
   if (!release.is_answered && !config.trigger.feedback_line.empty()) {
     found.push_back({{{"release", "answered"}, {"release", "feedback_line"}},

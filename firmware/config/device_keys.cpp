@@ -36,9 +36,9 @@ std::vector<Key> receiver_keys() {
 std::vector<Key> camera_keys() {
   return {
       text({"camera", "id",
-            "The camera, as plumbline camera lists it; \"\" takes the first of that list, \"none\" "
-            "is "
-            "for one that the line under [release] releases and that keeps its photos itself."},
+            "The camera, as plumbline camera lists it; \"\" takes the first of that list, "
+            "\"none\" is for one that the line under [release] releases and that keeps its photos "
+            "itself."},
            "an id in quotes such as \"/dev/video0\", at most 200 bytes", is_text,
            PLUMBLINE_FIELD(camera.id)),
       number_or_auto({"camera", "width_px", "The width of the photos; \"auto\": the largest."},

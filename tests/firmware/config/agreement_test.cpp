@@ -34,6 +34,8 @@ TEST(Agreement, WithoutACameraHereAPulseIsNeeded) {
   EXPECT_THAT(fault(none), StartsWith("p.toml:2: without a camera here nothing takes a photo"));
   const std::string pulse = "[release]\nby = \"pulse\"\nline = \"SHUTTER\"\n";
   EXPECT_TRUE(parse_config(none + pulse, "").errors.empty());
+  EXPECT_THAT(fault(none + "[release]\nby = \"pulse\"\n"),
+              StartsWith("p.toml:4: by = \"pulse\" needs"));
 }
 
 TEST(Agreement, APilotWhoArmsNeedsALink) {
