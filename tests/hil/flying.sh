@@ -18,7 +18,7 @@ drone() { "$drone" --work "$work" --sockets "$work/sockets" "${flying[@]}" "$@";
 fly() { drone fly --cut-power "$power_off_and_on" "$@"; }
 
 # flown KEY: a figure of the last flight.
-flown() { sed -n "s/.*\"$1\": \"\{0,1\}\([^\",]*\).*/\1/p" "$work/flown.json"; }
+flown() { sed -n "s/.*\"$1\": \"\{0,1\}\([^\",]*\).*/\1/p" "$work/flown.json" 2>/dev/null || true; }
 
 # A new machine in $work, switched on.
 switch_on() {
