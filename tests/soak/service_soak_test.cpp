@@ -14,7 +14,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-// Sanitizers make it ten times as slow, and look for leaks by themselves.
+// A part of it under sanitizers, which look for leaks by themselves.
 constexpr int kHours = PLUMBLINE_SANITIZED ? 3 : 24;
 
 // Windows of the clock fit and the predictor roll on, as the size of a sentence does. A leak of
