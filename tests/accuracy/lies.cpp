@@ -44,8 +44,8 @@ void add_common_errors(const GnssErrorModel& model, std::mt19937_64& random, Mad
 
 double nees(const MadeFlight& flight, const Solution& solution) {
   std::vector<int> measured;
-  for (std::size_t p = 0; p < solution.points.size(); ++p) {
-    if (solution.points[p].measured) measured.push_back(static_cast<int>(p));
+  for (int p = 0; p < flight.targets; ++p) {
+    if (solution.points[at(p)].measured) measured.push_back(p);
   }
   Eigen::VectorXd d(static_cast<Eigen::Index>(3 * measured.size()));
   for (std::size_t i = 0; i < measured.size(); ++i) {

@@ -24,7 +24,7 @@ struct LieTally {
   int unseen = 0;        // of those: nothing was named
   int below = 0;         // lies smaller than that
   int unchecked = 0;     // clean flights that name an unchecked quantity
-  double clean_nees = 0;  // of all points, over degrees of freedom: 1 where error bars are honest
+  double clean_nees = 0;  // of all targets, over degrees of freedom: 1 where error bars are honest
   // The same where the lie was named, of flights that still know their azimuth to 1 degree: a
   // larger turn moves points by more than its first order.
   int compared = 0;
