@@ -178,6 +178,14 @@ timing::GnssClock coarse_clock(HostTime origin) {
   return coarse;
 }
 
+// A machine whose pace changes, as one does where others are at work on its processor, is as slow
+// at the one kind of edges as at the other in no minute; then its delay is not known.
+bool are_alike(const Statistics& a, const Statistics& b) {
+  const double scatter_us = std::min(a.robust_sd_us, b.robust_sd_us);
+  return std::abs(a.median_us - b.median_us) <= scatter_us &&
+         std::max(a.robust_sd_us, b.robust_sd_us) <= 2 * scatter_us;
+}
+
 // A pulse of half a second each second for a minute. The clock is fitted to the rising edges; the
 // kernel's delay and its jitter are measured at the falling ones.
 TEST_F(KernelPulses, GiveAClockWithinTheirOwnJitter) {
@@ -189,6 +197,12 @@ TEST_F(KernelPulses, GiveAClockWithinTheirOwnJitter) {
     ASSERT_NO_FATAL_FAILURE(make_edge(pulse + 500ms, false, falling));
   }
   const Statistics delay = delays_of(falling);
+  print("the kernel's delay at falling edges", delay);
+  print("the kernel's delay at rising edges", delays_of(rising));
+  if (!are_alike(delay, delays_of(rising))) {
+    GTEST_SKIP() << "the machine's pace changed between these edges and those: its delay is not "
+                    "known, nor how good a clock is that was told of it. Run it when it is idle";
+  }
   timing::PpsFit fit(told_of(delay));
   std::vector<double> errors_us, sigmas_us, errors_in_sigmas;
   for (int second = 0; second < kSeconds; ++second) {
@@ -204,8 +218,6 @@ TEST_F(KernelPulses, GiveAClockWithinTheirOwnJitter) {
                                    Microseconds(shown.sigma_latency).count()));
     errors_in_sigmas.push_back(errors_us.back() / sigmas_us.back());
   }
-  print("the kernel's delay at falling edges", delay);
-  print("the kernel's delay at rising edges", delays_of(rising));
   ASSERT_GE(errors_us.size(), static_cast<std::size_t>(kSeconds) / 2);
   const Statistics in_sigmas = statistics(errors_in_sigmas);
   print("error of the clock", statistics(errors_us));

@@ -19,6 +19,21 @@ hil_cpu=qemu64,+ssse3,+sse4.1,+sse4.2,+popcnt
 # The kernel is to trust QEMU's clock, and to leave out what costs time there.
 hil_kernel_words='console=ttyS0 loglevel=4 panic=-1 mitigations=off nokaslr no_timer_check tsc=reliable random.trust_cpu=on cryptomgr.notests'
 
+# For the contract suite: a chip of gpio-sim, a line to put pulses out on and one to pull at.
+# shellcheck disable=SC2034 # the cases use it
+hil_gpio_chip='
+bench=/sys/kernel/config/gpio-sim/bench
+mkdir -p $bench/b0
+echo 8 >$bench/b0/num_lines
+mkdir $bench/b0/line4 $bench/b0/line5
+echo SHUTTER >$bench/b0/line4/name
+echo FLASH >$bench/b0/line5/name
+echo 1 >$bench/live
+chip=$(cat $bench/b0/chip_name)
+export PLUMBLINE_TEST_GPIO_OUT=SHUTTER PLUMBLINE_TEST_GPIO_IN=$chip:5
+export PLUMBLINE_TEST_GPIO_PULL=$(ls -d /sys/devices/platform/gpio-sim.*/gpiochip*/sim_gpio5)/pull
+'
+
 # The version of the newest stock kernel of this Debian.
 hil_version() {
   [ -z "${hil_version:-}" ] || { echo "$hil_version"; return; }
