@@ -209,6 +209,10 @@ std::string StatusBoard::ready() const {
       line->second.severity == record::Severity::kFault) {
     return "Not ready: no line to the shutter.";
   }
+  // They were there before.
+  const GnssFix* fix = fix_of_late();
+  if (fix == nullptr || fix->quality == FixQuality::kNone) return "Not ready: no position.";
+  if (needs_frames_ && !streaming_) return "Not ready: no picture from the camera.";
   std::string text = std::string("Ready: ") + quality() + "; " + begins_when() + ".";
   if (free_photos_) text += " " + std::to_string(*free_photos_) + " photos fit on the disk.";
   return text;

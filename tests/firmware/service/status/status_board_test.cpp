@@ -21,12 +21,41 @@ capture::Decision phase(capture::Phase phase) {
   return {HostTime{}, capture::PhaseChanged{phase, 50.0}};
 }
 
-TEST(StatusBoard, SaysWhatIsMissingWhileItWaits) {
-  StatusBoard board;
-  EXPECT_THAT(board.sentence(), HasSubstr("Waiting for a position"));
+void hear_fix(StatusBoard& board) {
   capture::FixHeard heard;
   heard.fix.quality = FixQuality::kFixed;
   board.heard({HostTime{}, heard});
+}
+
+// On the ground, with all that it needs.
+void make_ready(StatusBoard& board) {
+  hear_fix(board);
+  board.heard({HostTime{}, capture::CameraSeen{true}});
+  board.decided(phase(capture::Phase::kReady));
+}
+
+TEST(StatusBoard, IsNotReadyOnceReceiverOrCameraHasGone) {
+  StatusBoard::Time now;
+  StatusBoard board(true, {}, [&now] { return now; });
+  make_ready(board);
+  EXPECT_THAT(board.sentence(), HasSubstr("Ready: fixed"));
+  board.heard({HostTime{}, capture::CameraSeen{false}});
+  EXPECT_EQ(board.sentence(), "Not ready: no picture from the camera.");
+  board.heard({HostTime{}, capture::CameraSeen{true}});
+  now += std::chrono::seconds(6);
+  EXPECT_EQ(board.sentence(), "Not ready: no position.");
+  hear_fix(board);
+  EXPECT_THAT(board.sentence(), HasSubstr("Ready: fixed"));
+  capture::FixHeard lost;
+  lost.fix.quality = FixQuality::kNone;
+  board.heard({HostTime{}, lost});
+  EXPECT_EQ(board.sentence(), "Not ready: no position.");
+}
+
+TEST(StatusBoard, SaysWhatIsMissingWhileItWaits) {
+  StatusBoard board;
+  EXPECT_THAT(board.sentence(), HasSubstr("Waiting for a position"));
+  hear_fix(board);
   EXPECT_THAT(board.sentence(), HasSubstr("Waiting for the camera"));
 }
 
@@ -61,7 +90,7 @@ TEST(StatusBoard, SaysInFlightThatThereIsNoCamera) {
 
 TEST(StatusBoard, IsNotReadyWhereTheDiskHasNoRoomForTheFlight) {
   StatusBoard board;
-  board.decided(phase(capture::Phase::kReady));
+  make_ready(board);
   board.space(14, 14);
   EXPECT_THAT(board.sentence(), HasSubstr("Ready: "));
   EXPECT_THAT(board.sentence(), HasSubstr("14 photos fit"));
@@ -97,13 +126,13 @@ TEST(StatusBoard, SaysWhatIsConfiguredToBeginAFlight) {
   capture::TakeOffOptions take_off;
   take_off.rise_m = 2.5;
   StatusBoard by_height(true, take_off);
-  by_height.decided(phase(capture::Phase::kReady));
+  make_ready(by_height);
   EXPECT_THAT(by_height.sentence(), HasSubstr("takes off at 2.5 m of rise"));
   EXPECT_THAT(by_height.sentence(), Not(HasSubstr("autopilot")));
 
   take_off.by = capture::TakeOffBy::kArmed;
   StatusBoard by_pilot(true, take_off);
-  by_pilot.decided(phase(capture::Phase::kReady));
+  make_ready(by_pilot);
   EXPECT_THAT(by_pilot.sentence(), HasSubstr("no autopilot heard: takes off at 2.5 m of rise"));
   by_pilot.heard({HostTime{}, capture::PilotSeen{false}});
   EXPECT_THAT(by_pilot.sentence(), HasSubstr("begins when the autopilot is armed"));
@@ -114,7 +143,7 @@ TEST(StatusBoard, SaysWhatIsConfiguredToBeginAFlight) {
 
 TEST(StatusBoard, IsNotReadyWithoutTheLineThatReleasesPhotos) {
   StatusBoard of_pulses(false);
-  of_pulses.decided(phase(capture::Phase::kReady));
+  make_ready(of_pulses);
   of_pulses.said({HostTime{}, record::Severity::kFault, "shutter line", "It is not there."});
   EXPECT_THAT(of_pulses.sentence(), HasSubstr("Not ready: no line to the shutter."));
   EXPECT_THAT(of_pulses.sentence(), HasSubstr("It is not there."));
@@ -124,7 +153,7 @@ TEST(StatusBoard, IsNotReadyWithoutTheLineThatReleasesPhotos) {
 
 TEST(StatusBoard, SaysThatThePulsePerSecondIsMissing) {
   StatusBoard board;
-  board.decided(phase(capture::Phase::kReady));
+  make_ready(board);
   board.said({HostTime{}, record::Severity::kFault, "pulse per second", "No /dev/pps0."});
   EXPECT_THAT(board.sentence(), HasSubstr("Ready: "));
   EXPECT_THAT(board.sentence(), HasSubstr("No /dev/pps0."));
