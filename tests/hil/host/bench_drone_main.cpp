@@ -12,6 +12,7 @@
 
 #include "tests/hil/host/flight_truth.h"
 #include "tests/hil/host/flown_bench.h"
+#include "tests/hil/host/plugging_bench.h"
 
 namespace plumbline::hil {
 namespace {
@@ -22,6 +23,7 @@ struct Arguments {
   DroneOptions drone;
   FlownOptions flown;
   std::vector<std::string> faults;
+  std::uint64_t plugging_seed = 1;
   std::string command;  // of order
   int within_s = 60;
 };
@@ -73,6 +75,21 @@ int stand(const Arguments& a) {
   Drone drone(*flight, a.drone);
   if (!drone.board(a.flown.sockets)) return fail({"QEMU takes neither receiver nor camera."});
   for (;;) std::this_thread::sleep_for(std::chrono::hours(1));
+}
+
+int plug(const Arguments& a) {
+  const auto flight = flight_of(a.drone);
+  if (!flight) return fail(flight.error());
+  PluggingOptions options;
+  options.sockets = a.flown.sockets;
+  options.work = a.flown.work;
+  options.cut_power = a.flown.cut_power;
+  options.seed = a.plugging_seed;
+  PluggingBench bench(*flight, a.drone, options);
+  const auto failed = bench.run();
+  const int status = failed ? (*failed == 0 ? 0 : 1) : fail(failed.error());
+  std::fflush(nullptr);
+  std::_Exit(status);  // QEMU goes on, and the camera's thread would wait for its end
 }
 
 int order(const Arguments& a) {
@@ -225,9 +242,14 @@ int main(int count, char** values) {
       ->add_option("--fault", a.faults,
                    "cable, camera, stall, disk, power; cable@40: at 40 m; cable@40s: after 40 s")
       ->allow_extra_args(false);
-  flying->add_option("--cut-power", a.flown.cut_power,
-                     "command that takes the machine's power and starts it again");
   flying->callback([&] { status = fly(a); });
+  CLI::App* plugging = app.add_subcommand("plug", "plugs receiver and camera in in each order");
+  plugging->add_option("--at-random", a.plugging_seed, "seed of the times");
+  plugging->callback([&] { status = plug(a); });
+  for (CLI::App* command : {flying, plugging}) {
+    command->add_option("--cut-power", a.flown.cut_power,
+                        "command that takes the machine's power and starts it again");
+  }
   app.add_subcommand("duration", "of the flight, s")->callback([&] {
     const auto flight = flight_of(a.drone);
     if (flight) std::printf("%.1f\n", flight->duration_s());

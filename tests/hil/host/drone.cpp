@@ -63,12 +63,9 @@ sim::GnssStreamOptions Drone::receiver_options() const {
 
 bool Drone::board(const std::string& sockets) {
   leave();
-  posix::Descriptor port = connect_patiently(sockets + "/gnss");
   const bool eyes =
       options_.by_pulse ? lines_.open(sockets + "/lines", made_) : link_.open(sockets + "/camera");
-  if (!port.is_open() || !eyes) return false;
-  receiver_ = std::make_unique<ReceiverPort>(
-      std::move(port), [stream = stream_] { return std::optional(stream->next()); });
+  if (!plug_receiver(sockets) || !eyes) return false;
   if (options_.by_pulse) return true;
   camera_ = std::thread([this] {
     UvcCamera(
@@ -76,6 +73,14 @@ bool Drone::board(const std::string& sockets) {
         camera_orders_)
         .run();
   });
+  return true;
+}
+
+bool Drone::plug_receiver(const std::string& sockets) {
+  posix::Descriptor port = connect_patiently(sockets + "/gnss");
+  if (!port.is_open()) return false;
+  receiver_ = std::make_unique<ReceiverPort>(
+      std::move(port), [stream = stream_] { return std::optional(stream->next()); });
   return true;
 }
 

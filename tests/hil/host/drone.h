@@ -51,6 +51,9 @@ class Drone {
   bool board(const std::string& sockets);
   // When QEMU has ended.
   void leave();
+  // The receiver's cable alone.
+  bool plug_receiver(const std::string& sockets);
+  void pull_receiver() { receiver_.reset(); }
 
   // What the camera on USB is going to see; null where there is none.
   const FlightView* view() const { return view_.get(); }

@@ -1,86 +1,21 @@
 // SPDX-License-Identifier: MIT
 #include "tests/hil/host/flown_bench.h"
 
-#include <array>
 #include <cstdlib>
 #include <string_view>
 #include <utility>
-
-#include "firmware/ingest/camera_toml.h"
 
 namespace plumbline::hil {
 namespace {
 
 using SteadyClock = std::chrono::steady_clock;
-using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr seconds kOrder(60);
-constexpr milliseconds kLook(100);  // at the drone, between two lines of the status
 constexpr double kLandsWithin_s = 30;
 // The flight's folder is closed some seconds after it stands on the ground.
 constexpr seconds kAfterLanding(120);
 
-std::string base64(const std::string& bytes) {
-  static constexpr char kLetters[] =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    unsigned group = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const bool there = i + k < bytes.size();
-      group = group << 8 | (there ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    }
-    for (std::size_t k = 0; k < 4; ++k) {
-      const bool there = i + k <= bytes.size();
-      text += there ? kLetters[group >> (18 - 6 * k) & 63U] : '=';
-    }
-  }
-  return text;
-}
-
-std::string seconds_text(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%7.1f s", value);
-  return text.data();
-}
-
-double in_s(std::chrono::nanoseconds time) { return std::chrono::duration<double>(time).count(); }
-
-// What its user changes in the installed configuration: the camera's calibration, the heights, and
-// the lines where there are some.
-std::string edits_for(const DroneOptions& options) {
-  std::string heights;
-  for (const double height_m : heights_m_of(options)) {
-    heights += (heights.empty() ? "" : ", ") + std::to_string(height_m);
-  }
-  std::string edits =
-      "s|^#calibration = .*|calibration = \"/etc/plumbline/camera.toml\"|; "
-      "s|^#heights_m = .*|heights_m = [" +
-      heights + "]|";
-  if (options.by_pulse) {
-    edits +=
-        "; s|^#id = .*|id = \"none\"|; s|^#by = \"frame\"|by = \"pulse\"|; s|^#line = .*|line = "
-        "\"SHUTTER\"|; "
-        "s|^#feedback_line = .*|feedback_line = \"FLASH\"|; s|^#pps = .*|pps = \"gpio:PPS\"|";
-  }
-  return edits;
-}
-
 }  // namespace
-
-void Timeline::say(const std::string& text) {
-  const SteadyTime now = SteadyClock::now();
-  std::string line = seconds_text(in_s(now - began_)) + "   guest ";
-  line += guest_began_ ? seconds_text(in_s(now - *guest_began_)) : "        -";
-  line += "   flight " + (took_off_ ? seconds_text(in_s(now - *took_off_)) : "        -");
-  line += "   " + text + "\n";
-  for (std::FILE* out : {stdout, file_}) {
-    if (out == nullptr) continue;
-    std::fputs(line.c_str(), out);
-    std::fflush(out);
-  }
-}
 
 std::optional<Fault> fault_of(const std::string& text) {
   static const Fault kKnown[] = {{"cable", 32, {}, 4, 10, 2},
@@ -110,6 +45,7 @@ FlownBench::FlownBench(const sim::BenchFlight& flight, const DroneOptions& drone
       drone_options_(drone),
       options_(std::move(options)),
       timeline_(options_.work + "/timeline.txt"),
+      companion_(options_.sockets, timeline_),
       drone_(flight, drone) {
   for (const Fault& fault : options_.faults) doings_.push_back({.fault = fault});
 }
@@ -126,18 +62,19 @@ Result<Flown> FlownBench::fly() {
   return flown_;
 }
 
+Status FlownBench::configure() { return companion_.configure(flight_, drone_options_); }
+
 Status FlownBench::take_off() {
-  const auto is_ready = [](const Json& status) {
-    return status.value("sentence", "").starts_with("Ready");
-  };
   const SteadyTime deadline = SteadyClock::now() + options_.ready_within;
-  if (Status ready = wait_until("is not ready", is_ready, deadline); !ready) return ready;
+  if (Status ready = companion_.wait_until("is not ready", Companion::is_ready, deadline); !ready)
+    return ready;
   timeline_.say("the daemon is ready");
   if (const FlightView* view = drone_.view()) {
     timeline_.say(std::to_string(view->made()) + " of " + std::to_string(view->pictures()) +
                   " pictures are made");
     const auto all_made = [view](const Json&) { return view->made() == view->pictures(); };
-    if (Status made = wait_until("has no pictures", all_made, deadline); !made) return made;
+    if (Status made = companion_.wait_until("has no pictures", all_made, deadline); !made)
+      return made;
   }
   const SteadyTime begun = drone_.take_off();
   timeline_.take_off(begun);
@@ -160,8 +97,8 @@ Status FlownBench::land() {
   };
   const double left_s = flight_.duration_s() - drone_.seconds(SteadyClock::now());
   const auto deadline = SteadyClock::now() + seconds(static_cast<int>(left_s)) + kAfterLanding;
-  const Status landed =
-      wait_until("does not say that it has landed", has_landed, deadline, [this] { do_faults(); });
+  const Status landed = companion_.wait_until("does not say that it has landed", has_landed,
+                                              deadline, [this] { do_faults(); });
   if (!landed) return landed;
   timeline_.say("landed, " + std::to_string(flown_.photos_stored) + " photos stored in " +
                 flown_.flight);
@@ -169,66 +106,8 @@ Status FlownBench::land() {
 }
 
 Status FlownBench::board() {
-  shell_ = GuestShell();
-  cables_ = Cables();
-  status_lines_ = LineSocket();
   if (!drone_.board(options_.sockets)) return Error{"QEMU takes neither receiver nor camera."};
-  if (!cables_.open(options_.sockets + "/qmp") ||
-      !status_lines_.open(options_.sockets + "/status") ||
-      !shell_.open(options_.sockets + "/orders", options_.ready_within)) {
-    return Error{"Nobody answers at the sockets in " + options_.sockets +
-                 ": has the virtual computer been started, and come up (kernel.log)?"};
-  }
-  const auto uptime = shell_.run("cat /proc/uptime", kOrder);
-  if (!uptime) return Error{"The virtual computer does not tell the time."};
-  timeline_.tie_guest(std::atof(uptime->output.c_str()), SteadyClock::now());
-  timeline_.say("the virtual computer is up");
-  return Done{};
-}
-
-Status FlownBench::order(const std::string& command) {
-  const auto answer = shell_.run(command, kOrder);
-  if (!answer) return Error{"The virtual computer did not answer: " + command};
-  if (answer->status == 0) return Done{};
-  return Error{"In the virtual computer failed: " + command + "\n" + answer->output};
-}
-
-Status FlownBench::configure() {
-  const std::string calibration = base64(ingest::camera_toml(flight_.calibrated_camera()));
-  for (const std::string& command :
-       {"echo " + calibration + " | base64 -d >/etc/plumbline/camera.toml",
-        "sed -i '" + edits_for(drone_options_) + "' /etc/plumbline/plumbline.toml",
-        std::string("plumblined --check"), std::string("systemctl restart plumblined")}) {
-    if (Status done = order(command); !done) return done;
-  }
-  timeline_.say("configured, and the daemon restarted");
-  return Done{};
-}
-
-Status FlownBench::wait_until(const std::string& what,
-                              const std::function<bool(const Json&)>& is_so, SteadyTime deadline,
-                              const std::function<void()>& meanwhile) {
-  Json status;
-  while (SteadyClock::now() < deadline) {
-    if (const auto line = status_lines_.next(SteadyClock::now() + kLook)) {
-      Json read = Json::parse(*line, nullptr, false);
-      if (read.is_object()) status = std::move(read);
-      follow(status);
-    }
-    if (!status_lines_.is_open()) return Error{"QEMU has ended."};
-    if (status.is_object() && is_so(status)) return Done{};
-    if (meanwhile) meanwhile();
-  }
-  return Error{"The daemon " + what + " in time. It last said: " +
-               (status.is_object() ? status.value("sentence", "") : "nothing")};
-}
-
-void FlownBench::follow(const Json& status) {
-  if (!status.is_object()) return;
-  std::string text = status.value("sentence", "");
-  if (text == shown_) return;
-  shown_ = text;
-  timeline_.say(text);
+  return companion_.connect(options_.ready_within);
 }
 
 void FlownBench::do_faults() {
@@ -263,9 +142,10 @@ Status FlownBench::begin_fault(const std::string& name) {
   if (name == "power") return cut_power();
   if (name == "camera") drone_.camera().plugged = false;
   if (name == "stall") drone_.camera().silent = true;
-  if (name == "cable" && !cables_.pull("gnss")) return Error{"QEMU does not pull the cable."};
+  if (name == "cable" && !companion_.cables().pull("gnss"))
+    return Error{"QEMU does not pull the cable."};
   if (name != "disk") return Done{};
-  return order(
+  return companion_.order(
       "cd /var/lib && for size in 1M 4k; do dd if=/dev/zero of=full.$size bs=$size 2>/dev/null; "
       "done; :");
 }
@@ -274,10 +154,11 @@ Status FlownBench::end_fault(const std::string& name) {
   if (name == "camera") drone_.camera().plugged = true;
   if (name == "stall") drone_.camera().silent = false;
   if (name == "cable" &&
-      !cables_.plug(R"({"driver":"usb-serial","id":"gnss","chardev":"gnss","bus":"xhci.0"})")) {
+      !companion_.cables().plug(
+          R"({"driver":"usb-serial","id":"gnss","chardev":"gnss","bus":"xhci.0"})")) {
     return Error{"QEMU does not plug the cable in again."};
   }
-  return name == "disk" ? order("rm -f /var/lib/full.*") : Done{};
+  return name == "disk" ? companion_.order("rm -f /var/lib/full.*") : Done{};
 }
 
 // The drone flies on while its computer starts anew.

@@ -3,48 +3,17 @@
 
 #include <chrono>
 #include <cstdint>
-#include <cstdio>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "edge/base/result.h"
+#include "tests/hil/host/companion.h"
 #include "tests/hil/host/drone.h"
-#include "tests/hil/host/line_socket.h"
-#include "tests/hil/host/virtual_machine.h"
+#include "tests/hil/host/timeline.h"
 
 namespace plumbline::hil {
-
-// What happened, by the clocks of host, guest and flight.
-class Timeline {
- public:
-  using SteadyTime = std::chrono::steady_clock::time_point;
-
-  // Also into a file.
-  explicit Timeline(const std::string& path) : file_(std::fopen(path.c_str(), "w")) {}
-  Timeline(const Timeline&) = delete;
-  Timeline& operator=(const Timeline&) = delete;
-  ~Timeline() {
-    if (file_ != nullptr) std::fclose(file_);
-  }
-
-  // Seconds since the guest's kernel began, at `now`.
-  void tie_guest(double uptime_s, SteadyTime now) {
-    guest_began_ = now - std::chrono::duration_cast<std::chrono::nanoseconds>(
-                             std::chrono::duration<double>(uptime_s));
-  }
-  void take_off(SteadyTime at) { took_off_ = at; }
-
-  void say(const std::string& text);
-
- private:
-  std::FILE* file_;
-  SteadyTime began_ = std::chrono::steady_clock::now();
-  std::optional<SteadyTime> guest_began_;
-  std::optional<SteadyTime> took_off_;
-};
 
 // What is done to a flight, once or several times, from the first time that the drone is so high,
 // or from so many seconds after the flight's beginning.
@@ -90,11 +59,6 @@ class FlownBench {
 
   Status board();
   Status configure();
-  Status order(const std::string& command);
-  // Until the status is so, with what is to be done meanwhile.
-  Status wait_until(const std::string& what, const std::function<bool(const Json&)>& is_so,
-                    SteadyTime deadline, const std::function<void()>& meanwhile = {});
-  void follow(const Json& status);
   Status take_off();
   Status land();
   struct Doing {
@@ -115,11 +79,8 @@ class FlownBench {
   DroneOptions drone_options_;
   FlownOptions options_;
   Timeline timeline_;
+  Companion companion_;
   Drone drone_;
-  GuestShell shell_;
-  Cables cables_;
-  LineSocket status_lines_;
-  std::string shown_;
   std::string under_way_;      // the folder of the flight, as the daemon last said
   std::string cut_on_ground_;  // that of a flight whose power went when it had come down again
   Flown flown_;
