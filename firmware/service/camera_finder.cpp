@@ -41,7 +41,11 @@ bool CameraFinder::find() {
     return false;
   }
   trouble = "No camera is found: connect one, and see plumbline camera.";
-  for (const std::string& remark : listed.remarks) trouble.append(" ").append(remark);
+  // What is new may be over at the next look: udev gives the right to a camera after it has come.
+  for (const std::string& remark : listed.remarks) {
+    if (!remarks_ || remarks_->contains(remark)) trouble.append(" ").append(remark);
+  }
+  remarks_.emplace(listed.remarks.begin(), listed.remarks.end());
   tell(CameraState::kAbsent, trouble);
   return false;
 }

@@ -4,6 +4,8 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -20,7 +22,8 @@ struct CamerasListed {
 };
 
 // Looks for any camera until one can be started, and hands on what it reports. Why there is none is
-// reported once for each reason, as a camera would report it. A thread of its own.
+// reported once for each reason, as a camera would report it; a remark that was not there at the
+// look before waits for the next. A thread of its own.
 class CameraFinder {
  public:
   struct Cameras {
@@ -45,6 +48,7 @@ class CameraFinder {
   Cameras cameras_;
   Camera::Sink sink_;
   std::string told_;
+  std::optional<std::set<std::string>> remarks_;  // of the look before
   std::unique_ptr<Camera> camera_;
   std::jthread thread_;
 };

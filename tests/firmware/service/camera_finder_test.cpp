@@ -8,6 +8,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "sim/virtual_clock.h"
@@ -53,7 +54,8 @@ class FoundCamera : public testing::Test {
       const std::lock_guard lock(mutex_);
       CamerasListed found;
       for (const Listed& one : listed_) found.ids.push_back(one.id);
-      if (listed_.empty()) found.remarks.emplace_back("No module.");
+      if (listed_.empty()) found.remarks = remarks_;
+      if (!passing_remark_.empty()) found.remarks.push_back(std::exchange(passing_remark_, ""));
       return found;
     };
     cameras.make = [this](const std::string& id) -> Result<std::unique_ptr<Camera>> {
@@ -89,6 +91,8 @@ class FoundCamera : public testing::Test {
   sim::VirtualClock clock_{HostTime(100s)};
   std::mutex mutex_;
   std::vector<Listed> listed_;
+  std::vector<std::string> remarks_ = {"No module."};
+  std::string passing_remark_;  // of one look
   std::vector<std::string> said_;
 };
 
@@ -99,6 +103,23 @@ TEST_F(FoundCamera, IsMissedInWordsUntilItIsThere) {
   EXPECT_THAT(said(1)[0], HasSubstr("No module."));
   set({{"/dev/video0", "", ""}});
   EXPECT_EQ(said(2).back(), "It streams.");
+}
+
+// udev gives the right to it a moment after it has come.
+TEST_F(FoundCamera, IsNotComplainedAboutForWhatIsOverAtTheNextLook) {
+  const CameraFinder finder({}, clock_, cameras(), [this](const CameraEvent& e) { keep(e); });
+  ASSERT_EQ(said(1).size(), 1u);
+  {
+    const std::lock_guard lock(mutex_);
+    passing_remark_ = "No right to open it.";
+  }
+  std::this_thread::sleep_for(100ms);
+  EXPECT_EQ(said(0).size(), 1u);
+  {
+    const std::lock_guard lock(mutex_);
+    remarks_.emplace_back("No right to open that one.");
+  }
+  EXPECT_THAT(said(2).back(), HasSubstr("No right to open that one."));
 }
 
 TEST_F(FoundCamera, IsSaidNotToStartAndWhyOnceForEachReason) {
