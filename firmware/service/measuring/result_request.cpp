@@ -45,7 +45,8 @@ std::optional<ResultRequest::Answer> ResultRequest::answer(Time now) {
   return Answer{false, false,
                 "No result came within " + std::to_string(longest_.count()) +
                     " s of the request in " + file_ +
-                    ": does a service wait for that file? The photos are kept.",
+                    ": is the package plumbline installed, which measures? Where nothing is to be "
+                    "measured, set measure.enabled = false. The photos are kept.",
                 std::nullopt};
 }
 
