@@ -28,6 +28,16 @@ const std::map<std::string_view, std::vector<std::string_view>> kRoomsBelow = {
     {"survey", {"base", "geometry", "geodesy", "image", "orient"}},
 };
 
+// The same of firmware/, whose own files may include every room.
+const std::map<std::string_view, std::vector<std::string_view>> kFirmwareRoomsBelow = {
+    {"ingest", {}},
+    {"deliver", {"ingest"}},
+    {"config", {"ingest"}},
+    {"flight", {}},
+    {"service", {"config", "flight", "ingest"}},
+    {"commands", {"config", "deliver", "flight", "ingest"}},
+};
+
 struct Place {
   std::string_view header;               // how the library's headers begin
   std::vector<std::string_view> places;  // beside tests/
@@ -80,18 +90,24 @@ bool plays_simulations(std::string_view path) {
          path.starts_with("firmware/commands/replay_");
 }
 
+bool is_below(const std::map<std::string_view, std::vector<std::string_view>>& rooms,
+              std::string_view from, std::string_view to) {
+  const auto below = rooms.find(from);
+  return from == to ||
+         (below != rooms.end() && std::ranges::find(below->second, to) != below->second.end());
+}
+
 // Empty, or why a file of edge/ may not include `header`.
 std::string against_edge(std::string_view path, std::string_view header) {
   if (part(header, 0) != "edge") return "edge includes nothing of the project but edge";
   const std::string_view from = part(path, 1);
   const std::string_view to = part(header, 1);
-  const auto below = kRoomsBelow.find(from);
-  if (below == kRoomsBelow.end()) {
+  if (!kRoomsBelow.contains(from)) {
     return "edge/" + std::string(from) + " is new: say in tests/architecture what it may include";
   }
-  const bool allowed = from == to || std::find(below->second.begin(), below->second.end(), to) !=
-                                         below->second.end();
-  return allowed ? "" : "edge/" + std::string(from) + " may not include edge/" + std::string(to);
+  return is_below(kRoomsBelow, from, to)
+             ? ""
+             : "edge/" + std::string(from) + " may not include edge/" + std::string(to);
 }
 
 std::string against_drivers(std::string_view path, std::string_view header) {
@@ -106,8 +122,25 @@ std::string against_sim(std::string_view header) {
   return allowed ? "" : "sim includes only sim, edge and the seams drivers/*.h";
 }
 
+// Between rooms of firmware/, and those of the daemon, which share the folder of flights alone.
+std::string against_firmware_rooms(std::string_view path, std::string_view header) {
+  const std::string_view from = part(path, 1), to = part(header, 1);
+  if (part(path, 2).empty()) return {};  // a program, or what ties one together
+  if (part(header, 2).empty()) {
+    return from == "commands" ? "" : "only programs and commands include firmware's own headers";
+  }
+  if (!is_below(kFirmwareRoomsBelow, from, to)) {
+    return "firmware/" + std::string(from) + " may not include firmware/" + std::string(to);
+  }
+  const std::string_view room = part(path, 3).empty() ? "" : part(path, 2);
+  const bool in_service = from == "service" && to == "service" && !room.empty();
+  if (!in_service || part(header, 2) == room || part(header, 2) == "disk") return {};
+  return "a room of firmware/service includes of service only itself and disk";
+}
+
 std::string against_firmware(std::string_view path, std::string_view header) {
   const std::string_view top = part(header, 0);
+  if (top == "firmware") return against_firmware_rooms(path, header);
   if (top == "tests") return "nothing but tests includes tests";
   if (top == "sim" && !plays_simulations(path)) {
     return "only devices_in_sim and the sim and replay commands include sim";

@@ -88,6 +88,24 @@ TEST(WrongArrows, OnlyTheBoardsProgramIncludesRealDevices) {
   EXPECT_FALSE(arrow_allowed("firmware/session.cpp", "drivers/posix/file.h"));
 }
 
+TEST(WrongArrows, RoomsOfFirmwareIncludeOnlyWhatLiesBelowThem) {
+  EXPECT_TRUE(arrow_allowed("firmware/service/daemon.cpp", "firmware/flight/session.h"));
+  EXPECT_TRUE(arrow_allowed("firmware/plumbline.cpp", "firmware/service/daemon.h"));
+  EXPECT_TRUE(arrow_allowed("firmware/commands/a.cpp", "firmware/devices_on_board.h"));
+  EXPECT_FALSE(arrow_allowed("firmware/flight/a.cpp", "firmware/devices_on_board.h"));
+  EXPECT_FALSE(arrow_allowed("firmware/flight/session.cpp", "firmware/service/daemon.h"));
+  EXPECT_FALSE(arrow_allowed("firmware/ingest/number.cpp", "firmware/deliver/product.h"));
+  EXPECT_FALSE(arrow_allowed("firmware/commands/a.cpp", "firmware/service/daemon.h"));
+  EXPECT_FALSE(arrow_allowed("firmware/clouds/a.cpp", "firmware/ingest/number.h"));
+}
+
+TEST(WrongArrows, RoomsOfTheDaemonShareTheFolderOfFlightsAlone) {
+  EXPECT_TRUE(arrow_allowed("firmware/service/daemon.cpp", "firmware/service/status/a.h"));
+  EXPECT_TRUE(arrow_allowed("firmware/service/advice/a.cpp", "firmware/service/disk/a.h"));
+  EXPECT_FALSE(arrow_allowed("firmware/service/advice/a.cpp", "firmware/service/status/a.h"));
+  EXPECT_FALSE(arrow_allowed("firmware/service/disk/a.cpp", "firmware/service/daemon.h"));
+}
+
 TEST(WrongArrows, NothingButTestsIncludesTests) {
   EXPECT_FALSE(arrow_allowed("firmware/session.cpp", "tests/fakes.h"));
   EXPECT_TRUE(arrow_allowed("tests/sim/a_test.cpp", "tests/fakes.h"));
