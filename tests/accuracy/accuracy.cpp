@@ -48,8 +48,8 @@ void print(const std::string& name, const Tally& t) {
 // flights without it.
 bool false_stations(const Condition& condition, int trials, std::uint64_t first_seed) {
   constexpr double kSizeM = 0.3;
-  const auto tally = orient::testing::false_stations(condition.plan, condition.plan.gnss, kSizeM, 1,
-                                                     {trials, first_seed});
+  const auto tally =
+      orient::testing::false_stations(condition.plan, kSizeM, 1, {trials, first_seed});
   std::printf("false-station-%s: %s\n", condition.name.c_str(),
               orient::testing::in_words(tally).c_str());
   std::fflush(stdout);

@@ -22,26 +22,6 @@ Eigen::Vector3d gaussian(std::mt19937_64& random) {
   return {e, n, u};
 }
 
-// The offset of the flight and its Gauss-Markov part, photos 2.5 s apart.
-void add_common_errors(const GnssErrorModel& model, std::mt19937_64& random, MadeFlight& flight) {
-  constexpr double kApartS = 2.5;
-  const auto spread = [](double h, double v) { return Eigen::Vector3d(h, h, v); };
-  const Eigen::Vector3d offset = gaussian(random).cwiseProduct(
-      spread(model.offset_sigma_horizontal_m, model.offset_sigma_vertical_m));
-  Eigen::Vector3d drift = gaussian(random);
-  const double alike = model.correlation_s > 0 ? std::exp(-kApartS / model.correlation_s) : 0;
-  for (std::size_t i = 0; i < flight.problem.photos.size(); ++i) {
-    Photo& photo = flight.problem.photos[i];
-    photo.time_s = kApartS * static_cast<double>(i);
-    photo.station->antenna_in_enu_m += offset;
-    if (model.correlation_s > 0)
-      photo.station->antenna_in_enu_m += drift.cwiseProduct(
-          spread(model.correlated_sigma_horizontal_m, model.correlated_sigma_vertical_m));
-    drift = alike * drift + std::sqrt(1 - alike * alike) * gaussian(random);
-  }
-  flight.problem.gnss = model;
-}
-
 double nees(const MadeFlight& flight, const Solution& solution) {
   std::vector<int> measured;
   for (int p = 0; p < flight.targets; ++p) {
@@ -197,16 +177,11 @@ Lie exchange_rays(std::mt19937_64& random, MadeFlight& flight) {
 
 }  // namespace
 
-LieTally false_stations(const FlightPlan& plan, const GnssErrorModel& model, double size_m,
-                        int wrong, const LieTrials& trials) {
-  return tell(
-      plan, trials,
-      [&](std::mt19937_64& random, MadeFlight& flight) {
-        add_common_errors(model, random, flight);
-      },
-      [&](const Solution& clean, std::mt19937_64& random, MadeFlight& flight) {
-        return move_stations(clean, size_m, wrong, random, flight);
-      });
+LieTally false_stations(const FlightPlan& plan, double size_m, int wrong, const LieTrials& trials) {
+  return tell(plan, trials, nothing,
+              [&](const Solution& clean, std::mt19937_64& random, MadeFlight& flight) {
+                return move_stations(clean, size_m, wrong, random, flight);
+              });
 }
 
 LieTally wrong_length(const FlightPlan& plan, double size_m, const LieTrials& trials) {

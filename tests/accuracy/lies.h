@@ -31,10 +31,8 @@ struct LieTally {
   double lied_nees = 0;
 };
 
-// An antenna moved by `size_m` in a random direction at `wrong` random photos. GNSS errors drawn as
-// `model` says (the plan's own are its white part).
-LieTally false_stations(const FlightPlan& plan, const GnssErrorModel& model, double size_m,
-                        int wrong, const LieTrials& trials);
+// An antenna moved by `size_m` in a random direction at `wrong` random photos.
+LieTally false_stations(const FlightPlan& plan, double size_m, int wrong, const LieTrials& trials);
 
 // Five taped lengths of 2 mm beside the stations (or without them), one of them wrong by `size_m`.
 LieTally wrong_length(const FlightPlan& plan, double size_m, const LieTrials& trials);

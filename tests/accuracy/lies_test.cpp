@@ -40,7 +40,7 @@ void expect_few_false_alarms(const LieTally& tally) {
 }
 
 TEST(Lies, AFalseFixedStationIsNamed) {
-  const LieTally tally = testing::false_stations({}, {}, 0.3, 1, {40, 100});
+  const LieTally tally = testing::false_stations({}, 0.3, 1, {40, 100});
   EXPECT_GT(tally.detectable, 20);
   expect_named(tally);
   expect_few_false_alarms(tally);
@@ -48,14 +48,15 @@ TEST(Lies, AFalseFixedStationIsNamed) {
 }
 
 TEST(Lies, AFalseFixedStationIsNamedAmongCorrelatedErrors) {
-  const LieTally tally =
-      testing::false_stations(long_climb(), {0.5, 0.8, 30, 0.01, 0.02}, 0.3, 1, {12, 200});
+  FlightPlan plan = long_climb();
+  plan.gnss = {0.5, 0.8, 30, 0.01, 0.02};
+  const LieTally tally = testing::false_stations(plan, 0.3, 1, {12, 200});
   expect_named(tally);
   expect_few_false_alarms(tally);
 }
 
 TEST(Lies, ThreeFalseStationsOfFourteenAreNamed) {
-  const LieTally tally = testing::false_stations(long_climb(), {}, 0.3, 3, {12, 300});
+  const LieTally tally = testing::false_stations(long_climb(), 0.3, 3, {12, 300});
   expect_named(tally);
   EXPECT_NEAR(tally.lied_nees, 1, 0.15);
 }

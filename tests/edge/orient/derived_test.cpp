@@ -25,7 +25,8 @@ class Coupled final : public PointCovariances {
   Eigen::MatrixXd joint(const std::vector<int>& points) const override {
     std::vector<int> rows;
     for (const int p : points) rows.insert(rows.end(), {3 * p, 3 * p + 1, 3 * p + 2});
-    return root(rows, Eigen::all) * root(rows, Eigen::all).transpose();
+    const Eigen::MatrixXd of_them = root(rows, Eigen::all);
+    return of_them * of_them.transpose();
   }
   Eigen::MatrixXd with_photo(int /*photo*/, const std::vector<int>& points) const override {
     return Eigen::MatrixXd::Zero(6, 3 * static_cast<Eigen::Index>(points.size()));
