@@ -42,8 +42,10 @@ class DaemonLines {
         ::connect(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0) {
       return Done{};
     }
-    return Error{"No daemon answers at " + path + " (" + std::strerror(errno) +
-                 "): is plumblined running, and is this its socket?"};
+    return Error{
+        "No daemon answers at " + path + " (" + std::strerror(errno) +
+        "): is plumblined running, and is this its socket? Where it is a service, journalctl -u "
+        "plumblined says why it does not start."};
   }
   // Empty when the daemon has gone.
   std::string next() {
