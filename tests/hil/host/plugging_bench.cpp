@@ -2,6 +2,7 @@
 #include "tests/hil/host/plugging_bench.h"
 
 #include <cstdlib>
+#include <optional>
 #include <utility>
 
 namespace plumbline::hil {
