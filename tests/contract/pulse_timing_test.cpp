@@ -178,8 +178,8 @@ timing::GnssClock coarse_clock(HostTime origin) {
   return coarse;
 }
 
-// A machine whose pace changes, as one does where others are at work on its processor, is as slow
-// at the one kind of edges as at the other in no minute; then its delay is not known.
+// Where others are at work on its processor a machine's pace changes, and the delay that was
+// measured at the one kind of edges may not be that of the other.
 bool are_alike(const Statistics& a, const Statistics& b) {
   const double scatter_us = std::min(a.robust_sd_us, b.robust_sd_us);
   return std::abs(a.median_us - b.median_us) <= scatter_us &&

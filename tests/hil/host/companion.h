@@ -36,8 +36,8 @@ class Companion {
   // Restarts the daemon.
   Status configure(const sim::BenchFlight& flight, const DroneOptions& options);
 
-  // Until what the daemon says is so, with what is to be done meanwhile, every 100 ms. What it said
-  // before the call does not count.
+  // Until what the daemon says is so, with what is to be done meanwhile, every 100 ms. What was
+  // read of it before the call does not count.
   Status wait_until(const std::string& what, const std::function<bool(const Json&)>& is_so,
                     SteadyTime deadline, const std::function<void()>& meanwhile = {});
   static bool is_ready(const Json& status);
