@@ -16,6 +16,9 @@ constexpr double kLeastLambda = 1e-12;
 constexpr double kMostLambda = 1e8;
 constexpr double kDampingFactor = 8;
 constexpr double kNearlyUndamped = 1e-3;
+// A step that lowers the cost by less than this share of what the linearised problem promised went
+// too far along some direction, and the next one would swing back as far: it is damped more.
+constexpr double kPoorGain = 0.25;
 // The cost is a chi-square: what is left of such a gain is far below one sigma of anything.
 constexpr double kNegligible = 1e-10;
 // What summing some ten thousand squares leaves.
@@ -68,10 +71,15 @@ class Minimiser {
       const double gain = minimum_.cost - there;
       const double least = std::max(options_.tolerance * minimum_.cost, kNegligible);
       minimum_.converged = gain <= least && lambda_ < kNearlyUndamped;
+      const bool poor = gain < -kPoorGain * slope_along(equations_, *step);
       minimum_.state = std::move(trial);
       minimum_.cost = there;
       terms_ = std::move(terms);
-      if (!raised) lambda_ = std::max(lambda_ / kDampingFactor, kLeastLambda);
+      if (poor) {
+        lambda_ *= kDampingFactor;
+      } else if (!raised) {
+        lambda_ = std::max(lambda_ / kDampingFactor, kLeastLambda);
+      }
       return true;
     }
     return false;

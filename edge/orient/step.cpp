@@ -222,6 +222,18 @@ std::optional<Step> solve(const NormalEquations& equations, double lambda) {
   return step;
 }
 
+double slope_along(const NormalEquations& equations, const Step& step) {
+  double slope = equations.gradient.dot(step.common);
+  for (const PointLanes& points : equations.points) {
+    for (int lane = 0; lane < points.count; ++lane) {
+      const Eigen::Vector3d& moved = step.points[at(points.point[at(lane)])];
+      for (std::size_t i = 0; i < 3; ++i)
+        slope += points.gradient[i][lane] * moved[static_cast<Eigen::Index>(i)];
+    }
+  }
+  return slope;
+}
+
 State moved_by(const Network& network, const State& state, const Step& step) {
   State moved = state;
   const Layout& layout = network.layout;

@@ -19,6 +19,9 @@ struct Step {
 // complement). Empty where the damped system is not positive definite.
 std::optional<Step> solve(const NormalEquations& equations, double lambda);
 
+// Half of what the cost changes by along the step, to first order.
+double slope_along(const NormalEquations& equations, const Step& step);
+
 // The Schur complement over the eliminated points, undamped where lambda = 0. Symmetric.
 Eigen::MatrixXd reduced_matrix(const NormalEquations& equations, double lambda);
 

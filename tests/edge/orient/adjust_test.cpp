@@ -141,6 +141,21 @@ TEST(Adjust, TakesTheAzimuthOfAPureClimbFromAHeadingAndSaysSo) {
   EXPECT_TRUE(names(solution->summary, "azimuth"));
 }
 
+// A point near the axis whose residuals bend the cost as much as its rays do: full steps along its
+// height swing from one side of the minimum to the other, and took a thousand times as many.
+TEST(Adjust, ConvergesWhereFullStepsSwingToAndFro) {
+  FlightPlan plan;
+  plan.heights_m = {70, 90};
+  plan.side_step_m = 0;
+  plan.tilt_sigma_deg = 2;
+  plan.heading_sigma_deg = 1;
+  plan.image_sigma_px = 0.3;
+  const auto solution = adjust(make_flight(plan, 100531).problem, {});
+  ASSERT_TRUE(solution) << solution.error().sentence;
+  EXPECT_TRUE(solution->summary.converged);
+  EXPECT_LT(solution->summary.iterations, 300);
+}
+
 TEST(Adjust, NamesAStationThatIsOff) {
   // In plan a photo's tilt would take up as much; in height nothing does.
   FlightPlan plan;

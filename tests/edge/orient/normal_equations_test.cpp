@@ -75,6 +75,28 @@ TEST(NormalEquations, GiveTheStepOfTheSystemWithoutElimination) {
   }
 }
 
+TEST(NormalEquations, TellTheSlopeAlongAStep) {
+  const SmallNetwork small(12);
+  const auto terms = linearised_terms(small.network, small.state, small.datum, small.options);
+  const auto equations = normal_equations(small.network, small.state, 0, terms);
+  const auto cost = [&](const State& state) {
+    return cost_of(small.network, bundles_of(small.network), state, 0) +
+           cost_of(linearised_terms(small.network, state, small.datum, small.options));
+  };
+  Step step = *solve(equations, 1e-3);
+  const double slope = slope_along(equations, step);
+  constexpr double kShare = 1e-6;
+  step.common *= kShare;
+  for (Eigen::Vector3d& point : step.points) point *= kShare;
+  Step back = step;
+  back.common *= -1;
+  for (Eigen::Vector3d& point : back.points) point *= -1;
+  const double change = cost(moved_by(small.network, small.state, step)) -
+                        cost(moved_by(small.network, small.state, back));
+  EXPECT_LT(slope, 0);
+  EXPECT_NEAR(change / (4 * kShare), slope, 1e-4 * std::abs(slope));
+}
+
 TEST(NormalEquations, GiveThatStepWithRaysRejectedAndTiesWidened) {
   SmallNetwork small(14);
   small.network.rays[3].used = false;
