@@ -10,6 +10,7 @@
 
 #include "edge/orient/corrected_information.h"
 #include "edge/orient/minimise.h"
+#include "edge/orient/point_twists.h"
 #include "edge/orient/step.h"
 #include "edge/orient/weak_directions.h"
 
@@ -180,6 +181,27 @@ void bend_along(const Arc& arc, NetworkCovariance& covariance) {
     covariance.bend(place.weight, sum(place.from_estimate, arc.mean, -1));
 }
 
+// Whether what two arcs move together is followed by adjusting to places along both.
+bool twist_is_followed(double sigma_rad, double other_sigma_rad) {
+  return sigma_rad * other_sigma_rad >= kLeastTwistRad2;
+}
+
+void twist_points(const Network& network, const State& state, const NetworkCovariance& straight,
+                  const std::vector<WeakDirection>& directions, const std::vector<Arc>& arcs,
+                  NetworkCovariance& covariance) {
+  for (const Arc& arc : arcs) {
+    const double sigma_rad = arc.direction.sigma_rad;
+    std::vector<WeakDirection> others;
+    for (const WeakDirection& other : directions) {
+      if (other.sigma_rad < sigma_rad && !twist_is_followed(sigma_rad, other.sigma_rad))
+        others.push_back(other);
+    }
+    for (const Step& twist :
+         point_twists(network, state, straight, arc.straight, sigma_rad, others))
+      covariance.bend(1, twist);
+  }
+}
+
 Step mean_of(const std::vector<Arc>& arcs) {
   Step mean = arcs.front().mean;
   for (std::size_t i = 1; i < arcs.size(); ++i) mean = sum(std::move(mean), arcs[i].mean);
@@ -194,7 +216,8 @@ NetworkCovariance bent_covariance(const Network& network, const State& state, co
   NetworkCovariance bent = straight;
   const Explorer explorer(network, state, datum, terms, straight);
   std::vector<Arc> arcs;
-  for (const WeakDirection& direction : weak_directions(network, state, straight.common())) {
+  const auto directions = weak_directions(network, state, straight.common());
+  for (const WeakDirection& direction : directions) {
     if (direction.sigma_rad < kLeastAngleRad || arcs.size() == kMostDirections) break;
     auto arc = explorer.along(direction);
     if (!arc) continue;
@@ -204,11 +227,12 @@ NetworkCovariance bent_covariance(const Network& network, const State& state, co
   if (!arcs.empty()) bent.bend(1, mean_of(arcs));
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
-      if (arcs[i].direction.sigma_rad * arcs[j].direction.sigma_rad < kLeastTwistRad2) continue;
+      if (!twist_is_followed(arcs[i].direction.sigma_rad, arcs[j].direction.sigma_rad)) continue;
       if (const auto twist = explorer.twist(arcs[i], arcs[j])) bent.bend(1, *twist);
     }
   }
   bent.add_next_order(linear);
+  twist_points(network, state, straight, directions, arcs, bent);
   bent.turn_own_parts(network);
   return bent;
 }

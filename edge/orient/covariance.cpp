@@ -79,6 +79,17 @@ std::vector<int> groups_of_points(const Network& network) {
 
 }  // namespace
 
+std::vector<PointFactor> point_factors(const Network& network, const NormalEquations& equations) {
+  std::vector<PointFactor> factors(at(network.points()));
+  for (const PointLanes& points : equations.points) {
+    for (int lane = 0; lane < points.count; ++lane) {
+      const int p = points.point[at(lane)];
+      if (used_rays(network, p) >= 2) factors[at(p)] = eliminated(equations, points, lane);
+    }
+  }
+  return factors;
+}
+
 std::optional<NetworkCovariance> NetworkCovariance::of(const Network& network,
                                                        const NormalEquations& equations) {
   NetworkCovariance out;
@@ -87,13 +98,7 @@ std::optional<NetworkCovariance> NetworkCovariance::of(const Network& network,
   out.group_of_point_ = groups_of_points(network);
   for (const int slot : network.slot_of_photo)
     out.column_of_photo_.push_back(slot < 0 ? -1 : network.layout.photo(slot));
-  out.points_.resize(at(network.points()));
-  for (const PointLanes& points : equations.points) {
-    for (int lane = 0; lane < points.count; ++lane) {
-      const int p = points.point[at(lane)];
-      if (used_rays(network, p) >= 2) out.points_[at(p)] = eliminated(equations, points, lane);
-    }
-  }
+  out.points_ = point_factors(network, equations);
   for (const int p : network.layout.kept) {
     const int kept_index = network.layout.kept_of_point[at(p)];
     if (kept_index >= 0) out.points_[at(p)] = kept(network.layout.kept_point(kept_index));

@@ -28,6 +28,10 @@ struct PointSpread {
   Eigen::Matrix<double, 3, Eigen::Dynamic> with_common;
 };
 
+// By point, where its rays alone determine it: not measured where they do not, or where it is a
+// column of the reduced system itself.
+std::vector<PointFactor> point_factors(const Network& network, const NormalEquations& equations);
+
 class NetworkCovariance final : public PointCovariances {
  public:
   // Empty where the reduced matrix is singular to working precision.
