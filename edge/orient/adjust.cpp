@@ -155,6 +155,11 @@ class Adjustment {
       changed += drop_far_points() + drop_points_at_cameras(network_, state_);
       const int patience = tolerance == kFinalTolerance ? kFinalPatience : 1;
       minimise_from(datum_, {0, patience * options_.max_iterations, tolerance});
+      // One that was led to a camera has dragged the rest along.
+      if (drop_points_at_cameras(network_, state_) > 0) {
+        --round;
+        continue;
+      }
       const RaysLinear rays = linearise_rays(network_, state_, 0);
       const auto terms = linearised_terms(network_, state_, datum_, terms_);
       const auto equations = normal_equations(network_, state_, 0, terms);

@@ -156,6 +156,27 @@ TEST(Adjust, ConvergesWhereFullStepsSwingToAndFro) {
   EXPECT_LT(solution->summary.iterations, 300);
 }
 
+// Where the level is known to degrees only, the foot of the climb may come to lie on a point, and
+// the point on the way to its camera: there it fits all images, and 70 m off drags the level along.
+TEST(Adjust, LeavesOutAPointThatIsLedToACamera) {
+  FlightPlan plan;
+  plan.heights_m = {70, 90};
+  plan.side_step_m = 0;
+  plan.tilt_sigma_deg = 2;
+  plan.heading_sigma_deg = 1;
+  plan.image_sigma_px = 0.3;
+  const testing::MadeFlight flight = make_flight(plan, 101877);
+  const auto solution = adjust(flight.problem, {});
+  ASSERT_TRUE(solution) << solution.error().sentence;
+  for (std::size_t p = 0; p < flight.points.size(); ++p) {
+    const MeasuredPoint& point = solution->points[p];
+    if (!point.measured) continue;
+    const Eigen::Vector3d error = point.in_enu_m - flight.points[p];
+    const Eigen::Vector3d sigma = point.covariance_m2.diagonal().cwiseSqrt();
+    EXPECT_LT((error.array() / sigma.array()).abs().maxCoeff(), 4) << "point " << p;
+  }
+}
+
 TEST(Adjust, NamesAStationThatIsOff) {
   // In plan a photo's tilt would take up as much; in height nothing does.
   FlightPlan plan;
