@@ -34,8 +34,8 @@ Eigen::MatrixXd similarity_design(const MadeFlight& flight, const std::vector<in
 struct Errors {
   std::vector<int> points;
   Eigen::VectorXd absolute_m, local_m;
-  // As the error bars mean them: what the whole is turned and scaled by followed as a turn, as
-  // if along its tangent, so that turns of degrees leave shapes alone.
+  // What the whole is turned and scaled by followed as a turn, as if along its tangent: of which
+  // the azimuth is read.
   Eigen::VectorXd along_tangent_m;
   Eigen::MatrixXd stated, bound;
 };
@@ -117,7 +117,7 @@ void compare_with_stated(const MadeFlight& flight, const orient::Solution& solut
     const int p = e.points[static_cast<std::size_t>(i / 3)];
     tally.local_points.add(e.local_m[i], solution.points[at(p)].local_covariance_m2(i % 3, i % 3));
   }
-  tally.nees += e.along_tangent_m.dot(e.stated.ldlt().solve(e.along_tangent_m));
+  tally.nees += e.absolute_m.dot(e.stated.ldlt().solve(e.absolute_m));
   tally.nees_dof += static_cast<int>(e.absolute_m.size());
   const Eigen::MatrixXd g = similarity_design(flight, e.points);
   const Eigen::MatrixXd to_shared = (g.transpose() * g).ldlt().solve(g.transpose());
