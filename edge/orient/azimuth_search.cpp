@@ -21,6 +21,13 @@ constexpr double kContradictionSigmas = 5;
 constexpr double kCostRatio = 3;
 constexpr double kMostSquares = 1e10;
 constexpr int kAzimuthsTried = 8;
+// So many rays beyond so many sigmas: rather a wrong place than mismatches.
+constexpr double kManyOff = 1.0 / 3;
+constexpr double kOffSigmas = 5;
+// From level photos an eighth of a turn off, a point is seen a hundred pixels from where it is.
+constexpr double kCrudeScales[] = {100, 20};
+constexpr int kCrudeIterations = 30;
+constexpr double kCrudeTolerance = 1e-4;
 // Photos so few may have been oriented to each other wrongly without any contradiction.
 constexpr int kFewPhotos = 3;
 // A cost beyond its expectation by so many of its standard deviations is a doubt.
@@ -38,6 +45,13 @@ Descent descend(const Network& network, State start, const TermOptions& terms,
   return {std::move(start), std::move(end)};
 }
 
+// By what the sigmas were taken for before anything was learnt from residuals.
+double first_squared_sigmas(const Network& network, const Ray& ray, const State& state) {
+  Ray unlearnt = ray;
+  unlearnt.sigma_px = first_sigma(network.problem->observations[at(ray.observation)]);
+  return squared_sigmas(unlearnt, state);
+}
+
 bool stations_contradict(const Network& network, const State& state, const TermOptions& terms) {
   const std::vector<double> weights = robust_station_weights(network, state);
   const double beyond = station_weight_at(kContradictionSigmas);
@@ -47,18 +61,26 @@ bool stations_contradict(const Network& network, const State& state, const TermO
   return static_cast<double>(bad) > kContradictedShare * static_cast<double>(slots.size());
 }
 
-// By what the sigmas were taken for before anything was learnt from residuals.
 bool rays_contradict(const Network& network, const State& state, double cauchy_scale) {
   const double c2 = cauchy_scale * cauchy_scale;
   double cost = 0, expected = 0;
   for (const Ray& ray : network.rays) {
     if (!ray.used) continue;
-    Ray unlearnt = ray;
-    unlearnt.sigma_px = first_sigma(network.problem->observations[at(ray.observation)]);
-    cost += c2 * std::log1p(std::min(squared_sigmas(unlearnt, state), kMostSquares) / c2);
+    const double squares = first_squared_sigmas(network, ray, state);
+    cost += c2 * std::log1p(std::min(squares, kMostSquares) / c2);
     expected += 2;
   }
   return cost > kCostRatio * expected;
+}
+
+bool many_off(const Network& network, const State& state) {
+  int used = 0, off = 0;
+  for (const Ray& ray : network.rays) {
+    if (!ray.used) continue;
+    ++used;
+    off += first_squared_sigmas(network, ray, state) > kOffSigmas * kOffSigmas ? 1 : 0;
+  }
+  return off > kManyOff * used;
 }
 
 // A doubt is less than a contradiction: images and priors cost together more than their degrees of
@@ -120,11 +142,25 @@ class LowestDescent {
     descend_from(std::move(start));
   }
 
+  // The same from a start so crude that a sharp scale would see nothing but mismatches.
+  void try_from_crude(const State& start) {
+    State from = start;
+    for (const double scale : kCrudeScales) {
+      replant_wild_points(network_, from);
+      const MinimiseOptions crude{scale, kCrudeIterations, kCrudeTolerance};
+      Minimum end = minimise(network_, from, start, terms_, crude);
+      from = std::move(end.state);
+      iterations_ += end.iterations;
+    }
+    try_from(std::move(from));
+  }
+
   bool in_doubt() const {
     return doubtful(network_, lowest_) ||
            stations_contradict(network_, lowest_.end.state, terms_) ||
            rays_contradict(network_, lowest_.end.state, options_.cauchy_scale);
   }
+  bool many_rays_off() const { return many_off(network_, lowest_.end.state); }
 
   const State& start() const { return lowest_.start; }
 
@@ -161,6 +197,10 @@ Descent descend_around_circle(const Network& network, const State& free, const T
   if (lowest.in_doubt()) {
     for (State& start : aligned_all_around(network, free, terms, kAzimuthsTried))
       lowest.try_from(std::move(start));
+  }
+  if (lowest.many_rays_off()) {
+    for (const State& start : aligned_all_around(network, free, terms, kAzimuthsTried))
+      lowest.try_from_crude(levelled(network, start, terms));
   }
   return std::move(lowest).take();
 }
