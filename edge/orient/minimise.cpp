@@ -59,6 +59,12 @@ class Minimiser {
     for (; lambda_ <= kMostLambda; lambda_ *= kDampingFactor, raised = true) {
       const auto step = solve(equations_, lambda_);
       if (!step) continue;
+      const double promised = -slope_along(equations_, *step);
+      // Less than rounding may hide: there is nothing left to go for.
+      if (promised <= kNegligible && lambda_ < kNearlyUndamped) {
+        minimum_.converged = true;
+        return true;
+      }
       State trial = moved_by(network_, minimum_.state, *step);
       auto terms = linearised_terms(network_, trial, start_, options_of_terms_);
       const double there = cost(trial, terms);
@@ -71,7 +77,7 @@ class Minimiser {
       const double gain = minimum_.cost - there;
       const double least = std::max(options_.tolerance * minimum_.cost, kNegligible);
       minimum_.converged = gain <= least && lambda_ < kNearlyUndamped;
-      const bool poor = gain < -kPoorGain * slope_along(equations_, *step);
+      const bool poor = gain < kPoorGain * promised;
       minimum_.state = std::move(trial);
       minimum_.cost = there;
       terms_ = std::move(terms);
