@@ -25,9 +25,9 @@ constexpr int kAzimuthsTried = 8;
 constexpr double kManyOff = 1.0 / 3;
 constexpr double kOffSigmas = 5;
 // From level photos an eighth of a turn off, a point is seen a hundred pixels from where it is.
-constexpr double kCrudeScales[] = {100, 20};
-constexpr int kCrudeIterations = 30;
-constexpr double kCrudeTolerance = 1e-4;
+constexpr double kScalesFromAfar[] = {100, 20};
+constexpr int kIterationsFromAfar = 30;
+constexpr double kToleranceFromAfar = 1e-4;
 // Photos so few may have been oriented to each other wrongly without any contradiction.
 constexpr int kFewPhotos = 3;
 // A cost beyond its expectation by so many of its standard deviations is a doubt.
@@ -145,9 +145,9 @@ class LowestDescent {
   // The same from a start so crude that a sharp scale would see nothing but mismatches.
   void try_from_crude(const State& start) {
     State from = start;
-    for (const double scale : kCrudeScales) {
+    for (const double scale : kScalesFromAfar) {
       replant_wild_points(network_, from);
-      const MinimiseOptions crude{scale, kCrudeIterations, kCrudeTolerance};
+      const MinimiseOptions crude{scale, kIterationsFromAfar, kToleranceFromAfar};
       Minimum end = minimise(network_, from, start, terms_, crude);
       from = std::move(end.state);
       iterations_ += end.iterations;

@@ -46,12 +46,6 @@ Step displacement(const Network& network, const State& from, const State& to) {
   return step;
 }
 
-Step scaled(Step step, double by) {
-  step.common *= by;
-  for (Eigen::Vector3d& point : step.points) point *= by;
-  return step;
-}
-
 Step sum(Step a, const Step& b, double factor = 1) {
   a.common += factor * b.common;
   for (std::size_t p = 0; p < a.points.size(); ++p) a.points[p] += factor * b.points[p];

@@ -9,21 +9,15 @@ namespace plumbline::orient {
 namespace {
 
 // No further along the weak direction: a turn of more is no small one.
-constexpr double kFarthestRad = 0.5;
+constexpr double kLargestTurnRad = 0.5;
 // Of the variance of a point's own errors, the mean share below which a twist is left out.
 constexpr double kLeastShare = 1e-3;
-
-Step scaled(Step step, double by) {
-  step.common *= by;
-  for (Eigen::Vector3d& point : step.points) point *= by;
-  return step;
-}
 
 class Twists {
  public:
   Twists(const Network& network, const State& state, const NetworkCovariance& covariance,
          const Step& one_sigma, double sigma_rad)
-      : covariance_(covariance), share_(std::min(1.0, kFarthestRad / sigma_rad)) {
+      : covariance_(covariance), share_(std::min(1.0, kLargestTurnRad / sigma_rad)) {
     const auto factors_at = [&](double by) {
       const State there = moved_by(network, state, scaled(one_sigma, by));
       return point_factors(network, normal_equations(network, there, 0, {}));

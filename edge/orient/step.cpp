@@ -222,6 +222,12 @@ std::optional<Step> solve(const NormalEquations& equations, double lambda) {
   return step;
 }
 
+Step scaled(Step step, double by) {
+  step.common *= by;
+  for (Eigen::Vector3d& point : step.points) point *= by;
+  return step;
+}
+
 double slope_along(const NormalEquations& equations, const Step& step) {
   double slope = equations.gradient.dot(step.common);
   for (const PointLanes& points : equations.points) {

@@ -15,6 +15,8 @@ struct Step {
   std::vector<Eigen::Vector3d> points;
 };
 
+Step scaled(Step step, double by);
+
 // Solves with Marquardt damping (1 + lambda) on every diagonal; the points are eliminated (Schur
 // complement). Empty where the damped system is not positive definite.
 std::optional<Step> solve(const NormalEquations& equations, double lambda);

@@ -83,16 +83,11 @@ TEST(NormalEquations, TellTheSlopeAlongAStep) {
     return cost_of(small.network, bundles_of(small.network), state, 0) +
            cost_of(linearised_terms(small.network, state, small.datum, small.options));
   };
-  Step step = *solve(equations, 1e-3);
+  const Step step = *solve(equations, 1e-3);
   const double slope = slope_along(equations, step);
   constexpr double kShare = 1e-6;
-  step.common *= kShare;
-  for (Eigen::Vector3d& point : step.points) point *= kShare;
-  Step back = step;
-  back.common *= -1;
-  for (Eigen::Vector3d& point : back.points) point *= -1;
-  const double change = cost(moved_by(small.network, small.state, step)) -
-                        cost(moved_by(small.network, small.state, back));
+  const double change = cost(moved_by(small.network, small.state, scaled(step, kShare))) -
+                        cost(moved_by(small.network, small.state, scaled(step, -kShare)));
   EXPECT_LT(slope, 0);
   EXPECT_NEAR(change / (4 * kShare), slope, 1e-4 * std::abs(slope));
 }

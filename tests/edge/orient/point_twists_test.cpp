@@ -10,12 +10,6 @@
 namespace plumbline::orient {
 namespace {
 
-Step scaled_step(Step step, double by) {
-  step.common *= by;
-  for (Eigen::Vector3d& point : step.points) point *= by;
-  return step;
-}
-
 // Where the used rays of a point meet best, by Gauss-Newton with derivatives taken numerically.
 Eigen::Vector3d intersection(const Network& network, State state, int point) {
   const int first = network.first_ray[at(point)], last = network.first_ray[at(point) + 1];
@@ -71,7 +65,7 @@ TEST(PointTwists, AreTheMixedSecondDerivativesOfTheIntersections) {
   };
   // Small steps of large sigmas, so that third derivatives do not count and no twist is left out.
   constexpr double kSmall = 0.01, kLarge = 1e5;
-  const Step weak = scaled_step(sigma_along(directions[0]), kSmall);
+  const Step weak = scaled(sigma_along(directions[0]), kSmall);
   int compared = 0;
   for (const std::size_t k : {1U, 5U, 9U}) {
     const WeakDirection other{directions[k].gradient, directions[k].sigma_rad / kLarge};
@@ -79,16 +73,15 @@ TEST(PointTwists, AreTheMixedSecondDerivativesOfTheIntersections) {
                                      kSmall * directions[0].sigma_rad, {other});
     ASSERT_EQ(twists.size(), 1U);
     EXPECT_EQ(twists[0].common.norm(), 0);
-    const Step second = scaled_step(sigma_along(directions[k]), kSmall);
+    const Step second = scaled(sigma_along(directions[k]), kSmall);
     for (int p = 0; p < network.points(); ++p) {
       if (network.layout.kept_of_point[at(p)] >= 0 || !covariance->point(p).measured) continue;
       Eigen::Vector3d mixed = Eigen::Vector3d::Zero();
       for (const double a : {1.0, -1.0}) {
-        const State there = moved_by(network, small.state, scaled_step(weak, a));
+        const State there = moved_by(network, small.state, scaled(weak, a));
         const Network seen = seen_from(there, network);
         for (const double b : {1.0, -1.0})
-          mixed +=
-              a * b / 4 * intersection(seen, moved_by(network, there, scaled_step(second, b)), p);
+          mixed += a * b / 4 * intersection(seen, moved_by(network, there, scaled(second, b)), p);
       }
       mixed *= kLarge / kSmall;
       EXPECT_LT((twists[0].points[at(p)] - mixed).norm(), 0.01 * mixed.norm()) << k << ", " << p;
