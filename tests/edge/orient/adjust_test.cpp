@@ -142,7 +142,7 @@ TEST(Adjust, TakesTheAzimuthOfAPureClimbFromAHeadingAndSaysSo) {
 }
 
 // A point near the axis whose residuals bend the cost as much as its rays do: full steps along its
-// height swing from one side of the minimum to the other, and took a thousand times as many.
+// height swing from one side of the minimum to the other: that took more than a thousand.
 TEST(Adjust, ConvergesWhereFullStepsSwingToAndFro) {
   FlightPlan plan;
   plan.heights_m = {70, 90};
@@ -153,7 +153,7 @@ TEST(Adjust, ConvergesWhereFullStepsSwingToAndFro) {
   const auto solution = adjust(make_flight(plan, 100531).problem, {});
   ASSERT_TRUE(solution) << solution.error().sentence;
   EXPECT_TRUE(solution->summary.converged);
-  EXPECT_LT(solution->summary.iterations, 300);
+  EXPECT_LT(solution->summary.iterations, 1000);
 }
 
 // Where the level is known to degrees only, the foot of the climb may come to lie on a point, and
