@@ -141,16 +141,20 @@ TEST(Adjust, TakesTheAzimuthOfAPureClimbFromAHeadingAndSaysSo) {
   EXPECT_TRUE(names(solution->summary, "azimuth"));
 }
 
-// A point near the axis whose residuals bend the cost as much as its rays do: full steps along its
-// height swing from one side of the minimum to the other: that took more than a thousand.
-TEST(Adjust, ConvergesWhereFullStepsSwingToAndFro) {
+FlightPlan two_photos_and_a_heading() {
   FlightPlan plan;
   plan.heights_m = {70, 90};
   plan.side_step_m = 0;
   plan.tilt_sigma_deg = 2;
   plan.heading_sigma_deg = 1;
   plan.image_sigma_px = 0.3;
-  const auto solution = adjust(make_flight(plan, 100531).problem, {});
+  return plan;
+}
+
+// A point near the axis whose residuals bend the cost as much as its rays do: full steps along its
+// height swing from one side of the minimum to the other: that took more than a thousand.
+TEST(Adjust, ConvergesWhereFullStepsSwingToAndFro) {
+  const auto solution = adjust(make_flight(two_photos_and_a_heading(), 100531).problem, {});
   ASSERT_TRUE(solution) << solution.error().sentence;
   EXPECT_TRUE(solution->summary.converged);
   EXPECT_LT(solution->summary.iterations, 1000);
@@ -159,13 +163,7 @@ TEST(Adjust, ConvergesWhereFullStepsSwingToAndFro) {
 // Where the level is known to degrees only, the foot of the climb may come to lie on a point, and
 // the point on the way to its camera: there it fits all images, and 70 m off drags the level along.
 TEST(Adjust, LeavesOutAPointThatIsLedToACamera) {
-  FlightPlan plan;
-  plan.heights_m = {70, 90};
-  plan.side_step_m = 0;
-  plan.tilt_sigma_deg = 2;
-  plan.heading_sigma_deg = 1;
-  plan.image_sigma_px = 0.3;
-  const testing::MadeFlight flight = make_flight(plan, 101877);
+  const testing::MadeFlight flight = make_flight(two_photos_and_a_heading(), 101877);
   const auto solution = adjust(flight.problem, {});
   ASSERT_TRUE(solution) << solution.error().sentence;
   for (std::size_t p = 0; p < flight.points.size(); ++p) {
