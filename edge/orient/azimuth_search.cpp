@@ -132,10 +132,7 @@ class LowestDescent {
 
   void try_from(State start) {
     if (network_.points() <= kPointsToTry) return descend_from(std::move(start));
-    if (!few_points_) {
-      few_points_ = thinned(network_, kPointsToTry);
-      cost_of_few_ = descend(*few_points_, lowest_.start, terms_, options_).end.cost;
-    }
+    thin_out();
     const double cost = descend(*few_points_, start, terms_, options_).end.cost;
     if (!(cost < cost_of_few_ * (1 - kSameCost))) return;
     cost_of_few_ = cost;
@@ -144,14 +141,16 @@ class LowestDescent {
 
   // The same from a start so crude that a sharp scale would see nothing but mismatches.
   void try_from_crude(const State& start) {
+    const bool many = network_.points() > kPointsToTry;
+    if (many) thin_out();
+    const Network& tried = many ? *few_points_ : network_;
     State from = start;
     for (const double scale : kScalesFromAfar) {
-      replant_wild_points(network_, from);
+      replant_wild_points(tried, from);
       const MinimiseOptions crude{scale, kIterationsFromAfar, kToleranceFromAfar};
-      Minimum end = minimise(network_, from, start, terms_, crude);
-      from = std::move(end.state);
-      iterations_ += end.iterations;
+      from = minimise(tried, from, start, terms_, crude).state;
     }
+    if (many) replant_points(network_, from);
     try_from(std::move(from));
   }
 
@@ -171,6 +170,12 @@ class LowestDescent {
   }
 
  private:
+  void thin_out() {
+    if (few_points_) return;
+    few_points_ = thinned(network_, kPointsToTry);
+    cost_of_few_ = descend(*few_points_, lowest_.start, terms_, options_).end.cost;
+  }
+
   void descend_from(State start) {
     Descent other = descend(network_, std::move(start), terms_, options_);
     iterations_ += other.end.iterations;
