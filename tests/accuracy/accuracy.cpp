@@ -46,10 +46,9 @@ void print(const std::string& name, const Tally& t) {
 // A station whose receiver says "fixed" and is 0.3 m off, in one flight of each kind: named in
 // 98 % where its error exceeds the smallest detectable one, and nothing named in 98 % of the
 // flights without it.
-bool false_stations(const Condition& condition, int trials, std::uint64_t first_seed) {
+bool false_stations(const Condition& condition, const orient::testing::LieTrials& trials) {
   constexpr double kSizeM = 0.3;
-  const auto tally =
-      orient::testing::false_stations(condition.plan, kSizeM, 1, {trials, first_seed});
+  const auto tally = orient::testing::false_stations(condition.plan, kSizeM, 1, trials);
   std::printf("false-station-%s: %s\n", condition.name.c_str(),
               orient::testing::in_words(tally).c_str());
   std::fflush(stdout);
@@ -100,7 +99,7 @@ int main(int argc, char** argv) {
     const std::string name = "false-station-" + condition.name;
     if (each || !takes_a_false_station(condition.name)) continue;
     if (name.find(only) == std::string::npos) continue;
-    ++(false_stations(condition, trials, first_seed) ? passed : failed);
+    ++(false_stations(condition, {trials, first_seed, threads}) ? passed : failed);
   }
   std::printf("%d passed, %d failed\n", passed, failed);
   return failed == 0 ? 0 : 1;

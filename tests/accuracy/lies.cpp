@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "edge/base/index.h"
+#include "edge/base/parallel.h"
 #include "edge/base/units.h"
 
 namespace plumbline::orient::testing {
@@ -103,34 +104,59 @@ void finish(LieTally& tally) {
   tally.lied_nees /= std::max(1, tally.compared);
 }
 
+// One flight, clean and lied to.
+LieTally tell_once(const FlightPlan& plan, std::uint64_t seed, const Prepare& prepare,
+                   const Tell& lie_in) {
+  LieTally tally;
+  MadeFlight flight = make_flight(plan, seed);
+  std::mt19937_64 random(seed ^ 0x9e3779b97f4a7c15U);
+  prepare(random, flight);
+  const auto clean = adjust(flight.problem, {});
+  if (!clean) {
+    tally.failed = 1;
+    return tally;
+  }
+  tally.flights = 1;
+  tally.false_alarms = clean->summary.blunders.empty() ? 0 : 1;
+  tally.unchecked = clean->summary.unchecked.empty() ? 0 : 1;
+  tally.clean_nees = nees(flight, *clean);
+  const Lie lie = lie_in(*clean, random, flight);
+  if (lie.accused.empty()) return tally;
+  const auto solution = adjust(flight.problem, {});
+  if (!solution) {
+    tally.failed = 1;
+    return tally;
+  }
+  count_lied(lie, flight, *solution, tally);
+  return tally;
+}
+
+void add(const LieTally& other, LieTally& sum) {
+  sum.flights += other.flights;
+  sum.failed += other.failed;
+  sum.false_alarms += other.false_alarms;
+  sum.detectable += other.detectable;
+  sum.named += other.named;
+  sum.found += other.found;
+  sum.unseen += other.unseen;
+  sum.below += other.below;
+  sum.unchecked += other.unchecked;
+  sum.clean_nees += other.clean_nees;
+  sum.compared += other.compared;
+  sum.lied_nees += other.lied_nees;
+}
+
 LieTally tell(const FlightPlan& plan, const LieTrials& trials, const Prepare& prepare,
               const Tell& lie_in) {
-  LieTally tally;
-  for (int trial = 0; trial < trials.trials; ++trial) {
-    const std::uint64_t seed = trials.first_seed + static_cast<std::uint64_t>(trial);
-    MadeFlight flight = make_flight(plan, seed);
-    std::mt19937_64 random(seed ^ 0x9e3779b97f4a7c15U);
-    prepare(random, flight);
-    const auto clean = adjust(flight.problem, {});
-    if (!clean) {
-      ++tally.failed;
-      continue;
-    }
-    ++tally.flights;
-    tally.false_alarms += clean->summary.blunders.empty() ? 0 : 1;
-    tally.unchecked += clean->summary.unchecked.empty() ? 0 : 1;
-    tally.clean_nees += nees(flight, *clean);
-    const Lie lie = lie_in(*clean, random, flight);
-    if (lie.accused.empty()) continue;
-    const auto solution = adjust(flight.problem, {});
-    if (!solution) {
-      ++tally.failed;
-      continue;
-    }
-    count_lied(lie, flight, *solution, tally);
-  }
-  finish(tally);
-  return tally;
+  std::vector<LieTally> tallies(at(trials.trials));
+  parallel_for(trials.trials, trials.threads, [&](int i) {
+    const std::uint64_t seed = trials.first_seed + static_cast<std::uint64_t>(i);
+    tallies[at(i)] = tell_once(plan, seed, prepare, lie_in);
+  });
+  LieTally sum;
+  for (const LieTally& tally : tallies) add(tally, sum);
+  finish(sum);
+  return sum;
 }
 
 // As far apart as a field allows: each of another tenth of the points, by their place in the list.

@@ -12,6 +12,7 @@ namespace plumbline::orient::testing {
 struct LieTrials {
   int trials = 200;
   std::uint64_t first_seed = 1;
+  int threads = 1;  // trials at a time; the tally is the same with any number
 };
 
 struct LieTally {
