@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "edge/base/median.h"
+
 namespace plumbline::gnss {
 namespace {
 
@@ -65,11 +67,8 @@ void count_days(std::vector<GnssFix>& fixes) {
 }  // namespace
 
 bool looks_like_time_marks(const std::vector<GnssFix>& fixes, microseconds slowest_epochs) {
-  std::vector<microseconds> intervals = intervals_of(fixes);
-  if (intervals.empty()) return true;
-  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
-  std::nth_element(intervals.begin(), middle, intervals.end());
-  if (*middle > slowest_epochs) return true;
+  const std::vector<microseconds> intervals = intervals_of(fixes);
+  if (intervals.empty() || upper_median(intervals) > slowest_epochs) return true;
   // The usual rates of receivers, 20 Hz to 1 Hz; a grid of 50 ms holds those of 100 ms and so on.
   constexpr microseconds kSteps[] = {milliseconds(50), milliseconds(125)};
   return std::none_of(std::begin(kSteps), std::end(kSteps),

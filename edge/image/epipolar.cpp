@@ -8,6 +8,8 @@
 #include <optional>
 #include <random>
 
+#include "edge/base/median.h"
+
 namespace plumbline::image {
 namespace {
 
@@ -100,12 +102,6 @@ std::optional<std::vector<double>> consensus_distances(const std::vector<Normali
   return distances(eight_point(matches, best), matches);
 }
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // Each distance less the median of its neighbours'.
 std::vector<double> without_trend(const std::vector<Correspondence>& matches,
                                   const std::vector<double>& distance) {
@@ -120,7 +116,7 @@ std::vector<double> without_trend(const std::vector<Correspondence>& matches,
                       others.end());
     std::vector<double> near;
     for (std::size_t n = 0; n < count; ++n) near.push_back(distance[others[n].second]);
-    result.push_back(distance[i] - median(std::move(near)));
+    result.push_back(distance[i] - upper_median(std::move(near)));
   }
   return result;
 }
@@ -142,7 +138,7 @@ std::vector<bool> off_epipolar_line(const std::vector<Correspondence>& matches, 
   const std::vector<double> rest = without_trend(matches, *distance);
   std::vector<double> size;
   for (const double value : rest) size.push_back(std::abs(value));
-  const double sigma = 1.4826 * median(size);
+  const double sigma = 1.4826 * upper_median(size);
   const double limit = std::max(kLeastLimit_px * unit, kLimitInSigmas * sigma);
   for (std::size_t i = 0; i < rest.size(); ++i) suspect[i] = std::abs(rest[i]) > limit;
   return suspect;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "edge/base/median.h"
 #include "edge/base/units.h"
 #include "edge/orient/align.h"
 #include "edge/orient/azimuth_search.h"
@@ -244,10 +245,8 @@ class Adjustment {
       if (bars.point(p).measured) sigmas_m.push_back(std::sqrt(covariances_m2[at(p)](2, 2)));
     }
     if (sigmas_m.empty()) return 0;
-    const auto middle = sigmas_m.begin() + static_cast<std::ptrdiff_t>(sigmas_m.size() / 2);
-    std::nth_element(sigmas_m.begin(), middle, sigmas_m.end());
-    const double limit_m =
-        std::max(kFarPoint * std::abs(flying_height(network_, state_)), kOutlyingSigma * *middle);
+    const double limit_m = std::max(kFarPoint * std::abs(flying_height(network_, state_)),
+                                    kOutlyingSigma * upper_median(std::move(sigmas_m)));
     int dropped = 0;
     for (int p = 0; p < network_.points(); ++p) {
       const bool held = network_.layout.kept_of_point[at(p)] >= 0;

@@ -3,11 +3,11 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "edge/base/median.h"
 #include "edge/geometry/rotation.h"
 #include "edge/orient/rays.h"
 #include "edge/orient/stations.h"
@@ -83,10 +83,7 @@ double scale_of_lengths(const Network& network, const State& state) {
                       network.layout.kept_of_point[at(length.point_b)] >= 0;
     if (kept && free > 0) ratios.push_back(length.metres / free);
   }
-  if (ratios.empty()) return 0;
-  std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2),
-                   ratios.end());
-  return ratios[ratios.size() / 2];
+  return upper_median(std::move(ratios));
 }
 
 // The ratio of the sizes of both sets about their centres: a scale good to its sign.
@@ -218,9 +215,7 @@ State moved(const State& state, const Similarity& similarity) {
 double median_height(const State& state) {
   std::vector<double> heights;
   for (const geometry::Pose& pose : state.poses) heights.push_back(std::abs(pose.centre_m.z()));
-  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-  std::nth_element(heights.begin(), middle, heights.end());
-  return *middle;
+  return upper_median(std::move(heights));
 }
 
 std::vector<double> azimuths_around(int count) {

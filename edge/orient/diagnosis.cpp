@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "edge/base/median.h"
 #include "edge/base/units.h"
 #include "edge/orient/camera_prior.h"
 #include "edge/orient/formatted.h"
@@ -16,13 +17,6 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Stations with a white sigma beyond this are no surveying evidence for scale and position.
 constexpr double kPoorStationM = 0.5;
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::string in_degrees(double sigma_rad) { return two_digits(sigma_rad * kDegPerRad) + " degrees"; }
 
@@ -175,7 +169,7 @@ double flying_height(const Network& network, const State& state) {
   for (int p = 0; p < network.points(); ++p) {
     if (used_rays(network, p) >= 2) ground.push_back(state.points[at(p)].z());
   }
-  return median(std::move(stations)) - median(std::move(ground));
+  return upper_median(std::move(stations)) - upper_median(std::move(ground));
 }
 
 CommonSigmas common_sigmas(const Evidence& e, double flying_height_m) {
@@ -194,7 +188,8 @@ CommonSigmas common_sigmas(const Evidence& e, double flying_height_m) {
     if (!e.covariance.point(p).measured) continue;
     heights.push_back(std::sqrt(std::max(0.0, e.frame.local_covariance_m2[at(p)](2, 2))));
   }
-  sigmas.height = flying_height_m > 0 ? median(std::move(heights)) / flying_height_m : kInfinity;
+  sigmas.height =
+      flying_height_m > 0 ? upper_median(std::move(heights)) / flying_height_m : kInfinity;
   return sigmas;
 }
 
@@ -217,7 +212,7 @@ std::vector<std::string> cautions(const Evidence& e, const CommonSigmas& sigmas)
   for (const int slot : station_slots(e.network, e.terms)) {
     white.push_back(std::sqrt(e.network.photo(slot).station->covariance_m2.diagonal().maxCoeff()));
   }
-  const double poor = median(white);
+  const double poor = upper_median(white);
   const bool other_scale =
       !e.network.problem->lengths.empty() || e.network.problem->control.size() >= 2;
   if (poor > kPoorStationM && std::isfinite(sigmas.scale) && !other_scale) {

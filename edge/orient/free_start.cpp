@@ -6,6 +6,7 @@
 #include <map>
 #include <string>
 
+#include "edge/base/median.h"
 #include "edge/geometry/rotation.h"
 #include "edge/orient/plane_similarity.h"
 #include "edge/orient/rays.h"

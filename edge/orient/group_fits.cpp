@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "edge/base/median.h"
 #include "edge/orient/rays.h"
 
 namespace plumbline::orient {

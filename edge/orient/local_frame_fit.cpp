@@ -2,9 +2,9 @@
 #include "edge/orient/local_frame_fit.h"
 
 #include <Eigen/LU>
-#include <algorithm>
 #include <numeric>
 
+#include "edge/base/median.h"
 #include "edge/geometry/rotation.h"
 
 namespace plumbline::orient {
@@ -30,9 +30,7 @@ std::vector<int> frame_points(const NetworkCovariance& covariance,
   }
   std::vector<int> chosen;
   if (traces.empty()) return chosen;
-  const auto middle = traces.begin() + static_cast<std::ptrdiff_t>(traces.size() / 2);
-  std::nth_element(traces.begin(), middle, traces.end());
-  const double limit = kFarWorse * kFarWorse * *middle;
+  const double limit = kFarWorse * kFarWorse * upper_median(std::move(traces));
   for (const int p : candidates) {
     if (covariance.point(p).measured && point_covariances[at(p)].trace() <= limit) {
       chosen.push_back(p);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "edge/base/median.h"
 #include "edge/orient/formatted.h"
 #include "edge/orient/rays.h"
 

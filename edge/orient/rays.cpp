@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "edge/base/median.h"
 #include "edge/orient/diagnosis.h"
 
 namespace plumbline::orient {
@@ -85,12 +86,6 @@ double squared_sigmas(const Ray& ray, const State& state) {
   const auto residual = residual_of(ray, state);
   if (!residual) return std::numeric_limits<double>::infinity();
   return residual->squaredNorm() / (ray.sigma_px * ray.sigma_px);
-}
-
-double upper_median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 int reject_rays(Network& network, const State& state, double sigmas) {

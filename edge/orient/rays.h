@@ -11,9 +11,6 @@ namespace plumbline::orient {
 // Squared residual of a ray in its sigmas; infinite where it cannot be projected.
 double squared_sigmas(const Ray& ray, const State& state);
 
-// The upper of the two medians. Reorders `values`, which must not be empty.
-double upper_median(std::vector<double>& values);
-
 // Rejects rays beyond `sigmas`, takes back those that have come within, and drops points left with
 // one ray that nothing else holds. Returns how many rays changed sides.
 int reject_rays(Network& network, const State& state, double sigmas);

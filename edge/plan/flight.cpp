@@ -4,18 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "edge/base/median.h"
+
 namespace plumbline::plan {
 namespace {
 
 constexpr double kSameHeightM = 0.5;
 constexpr double kUsualStepM = 5;
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::vector<double> sorted_heights(const Flight& flight) {
   std::vector<double> heights;
@@ -83,7 +78,7 @@ Eigen::Vector2d foot_of(const Flight& flight) {
     east.push_back(place.x());
     north.push_back(place.y());
   }
-  return {median(std::move(east)), median(std::move(north))};
+  return {upper_median(std::move(east)), upper_median(std::move(north))};
 }
 
 double highest_m(const Flight& flight) { return sorted_heights(flight).back(); }
@@ -97,7 +92,7 @@ double usual_step_m(const Flight& flight) {
     const double step = heights[i] - heights[i - 1];
     if (step > kSameHeightM) steps.push_back(step);
   }
-  return steps.empty() ? kUsualStepM : median(std::move(steps));
+  return steps.empty() ? kUsualStepM : upper_median(std::move(steps));
 }
 
 }  // namespace plumbline::plan

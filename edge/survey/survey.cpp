@@ -6,6 +6,8 @@
 #include <map>
 #include <set>
 
+#include "edge/base/median.h"
+
 namespace plumbline::survey {
 namespace {
 
@@ -23,10 +25,8 @@ double median_sigma(const std::vector<image::TieObservation>& ties) {
   for (const auto& tie : ties) {
     if (const double sigma = sigma_of(tie); std::isfinite(sigma)) sigmas.push_back(sigma);
   }
-  if (sigmas.empty()) return 1;
-  const auto middle = sigmas.begin() + static_cast<std::ptrdiff_t>(sigmas.size() / 2);
-  std::nth_element(sigmas.begin(), middle, sigmas.end());
-  return *middle > 0 ? *middle : 1;
+  const double middle = upper_median(std::move(sigmas));
+  return middle > 0 ? middle : 1;
 }
 
 double relative_sigma(const image::TieObservation& tie, double median) {

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "edge/base/median.h"
+
 namespace plumbline::timing {
 namespace {
 
@@ -60,9 +62,7 @@ struct LineSums {
 
 double median_size(std::vector<double> values) {
   for (double& value : values) value = std::abs(value);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return upper_median(std::move(values));
 }
 
 struct RobustLine {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "edge/base/median.h"
 #include "edge/plan/model.h"
 #include "firmware/ingest/camera_toml.h"
 #include "firmware/ingest/usual_lens.h"
@@ -66,12 +67,6 @@ std::vector<FlownPhoto> asked_about(const std::vector<FlownPhoto>& photos) {
   return some;
 }
 
-double middle_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 // Of a photo to come: what the positions were so far, as a rule.
 std::optional<plan::Rtk> usual_fix(const std::vector<plan::PhotoFix>& fixes) {
   if (fixes.empty()) return std::nullopt;
@@ -81,7 +76,7 @@ std::optional<plan::Rtk> usual_fix(const std::vector<plan::PhotoFix>& fixes) {
     horizontal_m.push_back(std::sqrt(0.5 * (m2.x() + m2.y())));
     vertical_m.push_back(std::sqrt(m2.z()));
   }
-  return plan::Rtk{middle_of(std::move(horizontal_m)), middle_of(std::move(vertical_m))};
+  return plan::Rtk{upper_median(std::move(horizontal_m)), upper_median(std::move(vertical_m))};
 }
 
 bool ends_at_top(const std::vector<double>& to_come_m) {
