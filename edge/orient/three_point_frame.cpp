@@ -10,7 +10,7 @@
 #include "edge/base/index.h"
 #include "edge/base/units.h"
 #include "edge/geometry/rotation.h"
-#include "edge/orient/formatted.h"
+#include "edge/orient/findings/formatted.h"
 #include "edge/orient/s_transformation.h"
 
 namespace plumbline::orient {

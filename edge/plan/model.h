@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "edge/base/result.h"
-#include "edge/orient/network.h"
+#include "edge/orient/network/network.h"
 #include "edge/orient/problem.h"
 #include "edge/plan/flight.h"
 #include "edge/plan/ground.h"

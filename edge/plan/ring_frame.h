@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "edge/orient/covariance.h"
-#include "edge/orient/network.h"
+#include "edge/orient/network/network.h"
+#include "edge/orient/precision/covariance.h"
 
 namespace plumbline::plan {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "tests/edge/orient/made_flight.h"
+#include "tests/edge/orient/made/made_flight.h"
 
 namespace plumbline::accuracy {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "tests/accuracy/tally.h"
-#include "tests/edge/orient/made_flight.h"
+#include "tests/edge/orient/made/made_flight.h"
 
 namespace plumbline::accuracy {
 

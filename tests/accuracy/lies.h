@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "tests/edge/orient/made_flight.h"
+#include "tests/edge/orient/made/made_flight.h"
 
 namespace plumbline::orient::testing {
 

@@ -28,6 +28,16 @@ const std::map<std::string_view, std::vector<std::string_view>> kRoomsBelow = {
     {"survey", {"base", "geometry", "geodesy", "image", "orient"}},
 };
 
+// The same of edge/orient/, whose own files may include every room, and every room these of them.
+const std::map<std::string_view, std::vector<std::string_view>> kOrientRoomsBelow = {
+    {"network", {}},
+    {"start", {"network"}},
+    {"precision", {"network"}},
+    {"reliability", {"network", "precision"}},
+    {"findings", {"network", "precision", "reliability"}},
+};
+const std::vector<std::string_view> kOrientTypes = {"problem.h", "options.h", "solution.h"};
+
 // The same of firmware/, whose own files may include every room.
 const std::map<std::string_view, std::vector<std::string_view>> kFirmwareRoomsBelow = {
     {"ingest", {}},
@@ -97,6 +107,21 @@ bool is_below(const std::map<std::string_view, std::vector<std::string_view>>& r
          (below != rooms.end() && std::ranges::find(below->second, to) != below->second.end());
 }
 
+// Between rooms of edge/orient; paper/ stands above it and may include all.
+std::string against_orient_rooms(std::string_view path, std::string_view header) {
+  const std::string_view from = part(path, 2), to = part(header, 2);
+  const bool from_room = !part(path, 3).empty(), to_room = !part(header, 3).empty();
+  if (!to_room) {
+    const bool is_type = std::ranges::find(kOrientTypes, to) != kOrientTypes.end();
+    const bool above = !from_room || from == "paper";
+    return above || is_type ? "" : "rooms of edge/orient include only the types of its own files";
+  }
+  if (from == "paper") return {};
+  if (to == "paper") return "edge/orient may not include its paper";
+  if (!from_room || is_below(kOrientRoomsBelow, from, to)) return {};
+  return "edge/orient/" + std::string(from) + " may not include edge/orient/" + std::string(to);
+}
+
 // Empty, or why a file of edge/ may not include `header`.
 std::string against_edge(std::string_view path, std::string_view header) {
   if (part(header, 0) != "edge") return "edge includes nothing of the project but edge";
@@ -105,6 +130,7 @@ std::string against_edge(std::string_view path, std::string_view header) {
   if (!kRoomsBelow.contains(from)) {
     return "edge/" + std::string(from) + " is new: say in tests/architecture what it may include";
   }
+  if (from == "orient" && to == "orient") return against_orient_rooms(path, header);
   return is_below(kRoomsBelow, from, to)
              ? ""
              : "edge/" + std::string(from) + " may not include edge/" + std::string(to);

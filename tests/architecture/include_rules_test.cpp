@@ -50,6 +50,21 @@ TEST(WrongArrows, EdgeRoomsIncludeOnlyWhatLiesBelowThem) {
   EXPECT_FALSE(arrow_allowed("edge/geometry/a.h", "edge/orient/problem.h"));
 }
 
+TEST(WrongArrows, RoomsOfOrientIncludeOnlyWhatLiesBelowThem) {
+  EXPECT_TRUE(arrow_allowed("edge/orient/a.cpp", "edge/orient/start/a.h"));
+  EXPECT_TRUE(arrow_allowed("edge/orient/reliability/a.h", "edge/orient/precision/a.h"));
+  EXPECT_TRUE(arrow_allowed("edge/orient/network/a.cpp", "edge/orient/network/b.h"));
+  EXPECT_TRUE(arrow_allowed("edge/orient/network/a.cpp", "edge/orient/problem.h"));
+  EXPECT_TRUE(arrow_allowed("edge/orient/paper/a.cpp", "edge/orient/adjust.h"));
+  EXPECT_TRUE(arrow_allowed("edge/plan/a.cpp", "edge/orient/network/a.h"));
+  EXPECT_FALSE(arrow_allowed("edge/orient/network/a.cpp", "edge/orient/adjust.h"));
+  EXPECT_FALSE(arrow_allowed("edge/orient/network/a.cpp", "edge/orient/start/a.h"));
+  EXPECT_FALSE(arrow_allowed("edge/orient/precision/a.cpp", "edge/orient/reliability/a.h"));
+  EXPECT_FALSE(arrow_allowed("edge/orient/start/a.cpp", "edge/orient/findings/a.h"));
+  EXPECT_FALSE(arrow_allowed("edge/orient/a.cpp", "edge/orient/paper/a.h"));
+  EXPECT_FALSE(arrow_allowed("edge/orient/clouds/a.cpp", "edge/orient/network/a.h"));
+}
+
 TEST(WrongArrows, EdgeKnowsNeitherDevicesNorSimulationNorPrograms) {
   EXPECT_FALSE(arrow_allowed("edge/survey/a.cpp", "drivers/camera.h"));
   EXPECT_FALSE(arrow_allowed("edge/survey/a.cpp", "sim/world.h"));

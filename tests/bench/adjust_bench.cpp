@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-#include "edge/orient/covariance.h"
+#include "edge/orient/precision/covariance.h"
 #include "tests/bench/ceres_adjustment.h"
 #include "tests/bench/made_block.h"
 

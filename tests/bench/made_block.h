@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "edge/orient/minimise.h"
-#include "edge/orient/network.h"
-#include "edge/orient/terms.h"
+#include "edge/orient/network/minimise.h"
+#include "edge/orient/network/network.h"
+#include "edge/orient/network/terms.h"
 
 namespace plumbline::bench {
 

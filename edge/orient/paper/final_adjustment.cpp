@@ -7,8 +7,8 @@
 
 #include "edge/base/index.h"
 #include "edge/base/units.h"
-#include "edge/orient/minimise.h"
-#include "edge/orient/solution_of.h"
+#include "edge/orient/findings/solution_of.h"
+#include "edge/orient/network/minimise.h"
 #include "edge/orient/three_point_frame.h"
 
 namespace plumbline::orient::paper {

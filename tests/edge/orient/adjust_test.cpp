@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "edge/base/units.h"
-#include "tests/edge/orient/made_flight.h"
+#include "tests/edge/orient/made/made_flight.h"
 
 namespace plumbline::orient {
 namespace {

@@ -9,7 +9,7 @@
 #include "edge/base/index.h"
 #include "edge/base/units.h"
 #include "edge/orient/adjust.h"
-#include "tests/edge/orient/made_flight.h"
+#include "tests/edge/orient/made/made_flight.h"
 
 namespace plumbline::orient {
 namespace {

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "edge/geometry/rotation.h"
-#include "tests/edge/orient/made_flight.h"
+#include "tests/edge/orient/made/made_flight.h"
 
 namespace plumbline::orient {
 namespace {

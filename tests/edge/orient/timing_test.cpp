@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "edge/orient/adjust.h"
-#include "tests/edge/orient/made_flight.h"
+#include "tests/edge/orient/made/made_flight.h"
 
 namespace plumbline::orient {
 namespace {

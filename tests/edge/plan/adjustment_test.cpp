@@ -9,7 +9,7 @@
 #include "edge/orient/adjust.h"
 #include "edge/plan/model.h"
 #include "edge/plan/prediction.h"
-#include "tests/edge/orient/made_flight.h"
+#include "tests/edge/orient/made/made_flight.h"
 #include "tests/edge/plan/paper_camera.h"
 
 namespace plumbline::plan {
