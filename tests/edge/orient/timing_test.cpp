@@ -19,11 +19,6 @@ constexpr int kFlights = 40;
 // 99.9 % of chi-square with 40 degrees of freedom (tables), two-sided.
 constexpr double kLow = 16.9, kHigh = 76.1;
 
-bool names(const Summary& summary, const std::string& quantity) {
-  return std::any_of(summary.unobservable.begin(), summary.unobservable.end(),
-                     [&](const Unobservable& u) { return u.name == quantity; });
-}
-
 // Squared errors in stated sigmas, and how many flights called it unobservable.
 struct Found {
   double squares = 0, largest_sigma = 0;
@@ -56,7 +51,8 @@ Found delays(const FlightPlan& plan, double prior_s) {
     const auto solution = adjust(flight.problem, {});
     EXPECT_TRUE(solution) << solution.error().sentence;
     if (!solution) continue;
-    found.add(solution->summary.delay, plan.delay_s, names(solution->summary, "delay"));
+    found.add(solution->summary.delay, plan.delay_s,
+              testing::calls_unobservable(solution->summary, "delay"));
   }
   return found;
 }
@@ -90,7 +86,8 @@ TEST(LineTime, IsFoundWhereTheSpeedVaries) {
     flight.problem.camera.line_time_sigma_us = 100;
     const auto solution = adjust(flight.problem, {});
     ASSERT_TRUE(solution) << solution.error().sentence;
-    found.add(solution->summary.line_time, plan.line_time_s, names(solution->summary, "line_time"));
+    found.add(solution->summary.line_time, plan.line_time_s,
+              testing::calls_unobservable(solution->summary, "line_time"));
   }
   EXPECT_EQ(found.missing, 0);
   EXPECT_EQ(found.declared, 0);

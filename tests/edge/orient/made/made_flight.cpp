@@ -235,4 +235,9 @@ MadeFlight make_flight(const FlightPlan& plan, std::uint64_t seed) {
   return Maker(plan, seed).make();
 }
 
+bool calls_unobservable(const Summary& summary, const std::string& quantity) {
+  return std::any_of(summary.unobservable.begin(), summary.unobservable.end(),
+                     [&](const Unobservable& u) { return u.name == quantity; });
+}
+
 }  // namespace plumbline::orient::testing

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "edge/orient/adjust.h"
@@ -49,5 +50,7 @@ struct MadeFlight {
 // Truth plus noise, the camera as calibrated among it (f 0.5 px, principal point 0.5 px,
 // distortion 2e-4).
 MadeFlight make_flight(const FlightPlan& plan, std::uint64_t seed);
+
+bool calls_unobservable(const Summary& summary, const std::string& quantity);
 
 }  // namespace plumbline::orient::testing
