@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "edge/base/result.h"
-#include "edge/orient/adjust.h"
+#include "edge/orient/options.h"
 #include "edge/orient/problem.h"
 #include "edge/orient/solution.h"
 
